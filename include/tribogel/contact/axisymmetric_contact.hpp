@@ -1,0 +1,250 @@
+/// The contact operator of two coaxial bodies of revolution: slave curve (lower face of the top body) on master curve
+/// (upper face of the bottom body), with twist. It holds both curves whole, so any process can evaluate any of the
+/// slave nodes:
+///
+///     AxisymmetricContact contact({slave, master, parameters});
+///     const auto pairs = contact.candidate_pairs(state, margin);
+///     const auto report = contact.update(state, pairs, true, first, last);
+///     for (int a = first; a < last; ++a) contact.node(a, law, block);    // add block.residual, block.jacobian
+///
+/// What the rows mean: axisymmetric_node.hpp. The derivation: THEORY, section 3.
+#pragma once
+
+#include "tribogel/contact/axisymmetric_jacobian.hpp"
+#include "tribogel/contact/search.hpp"
+
+namespace tribogel
+{
+
+struct MortarReport {
+  MortarStatus status = MortarStatus::ok;
+  int facet = -1; ///< slave facet of the first failure
+  double overhang =
+      0; ///< reference length of slave beyond the master's edge [mm]; each facet is counted with its outer node
+};
+
+/// One slave node's contribution. Columns: (u_R, w, u_Z) of each slave node, of each master node, then the multiplier
+/// (r, theta, z) of node a; rows: u of node a, of each master node, then the conditions. slave_nodes[0] is a, so the
+/// rows are columns 0 to 2 and those from 3 slave_nodes.size() on.
+struct NodeBlock {
+  std::vector<int> slave_nodes, master_nodes;
+  Eigen::VectorXd residual; ///< [N]
+  Eigen::MatrixXd
+      jacobian; ///< d residual / d (u, lambda) with d rate / d u = shift; only after update(derivatives = true)
+  ContactStatus status;
+};
+
+/// What observers want to know of a slave node. NaN where no multiplier is carried.
+struct NodeResult {
+  bool carries;
+  ContactStatus status;
+  double weight;                   ///< D_a: nominal traction times weight is a force [mm^2]
+  double area;                     ///< current: Cauchy traction times area is the same force [mm^2]
+  double gap;                      ///< [mm]
+  double pressure;                 ///< Cauchy [MPa]
+  Vector3<double> nominal, cauchy; ///< traction on the slave [MPa]
+  Vector3<double> velocity;        ///< sliding velocity, slave minus master, tangential part [mm/s]
+  Vector3<double> normal;          ///< unit, out of the slave
+};
+
+class AxisymmetricContact
+{
+public:
+  AxisymmetricContact() = default;
+  explicit AxisymmetricContact(ContactGeometry reference) : geometry(std::move(reference)) {}
+
+  const ContactGeometry &reference() const { return geometry; }
+
+  /// Sorted pairs of facets for `update`; they remain sufficient while the surfaces slide by less than margin [mm].
+  std::vector<std::pair<int, int>> candidate_pairs(const ContactState<double> &state, double margin) const
+  {
+    const auto at = positions(geometry.slave, state.slave);
+    return tribogel::candidate_pairs(geometry.slave_chain, at, normals(at), geometry.master_chain,
+                                     positions(geometry.master, state.master), margin);
+  }
+
+  /// Evaluate the mortar integrals that the slave nodes first <= a < last need (all by default).
+  MortarReport update(const ContactState<double> &state, FacetPairs pairs, bool derivatives, int first = 0,
+                      int last = -1);
+
+  /// The nodes that block.slave_nodes and block.master_nodes of node a can contain as long as `pairs` are sufficient.
+  NodeBlock pattern(int a, FacetPairs pairs) const
+  {
+    NodeBlock block{.slave_nodes = {a}, .master_nodes = {}, .residual = {}, .jacobian = {}, .status = {}};
+    if (!geometry.nodes[a].carries) return block;
+    block.slave_nodes = slave_neighbourhood(geometry, a);
+    const LineChain &slave = geometry.slave_chain, &master = geometry.master_chain;
+    for (int k = 0; k < slave.neighbours[a].count; ++k)
+      for (const auto &[f, m] : pairs_of(pairs, slave.neighbours[a].of[k].facet))
+        for (int b = 0; b < master.facet_nodes; ++b) index_in(block.master_nodes, master.facets[m][b]);
+    return block;
+  }
+
+  /// Residual and, if `update` was asked for derivatives, Jacobian of slave node a. Without a multiplier the row is
+  /// lambda = 0.
+  template <FrictionLaw<Dual<10>> Law> void node(int a, const Law &law, NodeBlock &block) const;
+
+  template <FrictionLaw<double> Law> NodeResult result(int a, const Law &law) const;
+
+  /// Force along z and torque about it on the slave: (sum D lambda_z, sum r D lambda_theta) of node a [N, N mm]. The
+  /// torque that opposes a rotation of the slave is the negative of the second.
+  std::pair<double, double> resultant(int a) const
+  {
+    const Vector3<double> force = geometry.nodes[a].D * now.multiplier[a];
+    if (!geometry.nodes[a].carries) return {0, 0};
+    return {force[2], x[a].r * force[1]};
+  }
+
+private:
+  ContactGeometry geometry;
+  ContactState<double> now;
+  bool with_derivatives = false;
+  std::vector<PlanePoint<double>> x, y, n;
+  std::vector<NormalWithDerivative> dn;
+  std::vector<FacetMortar<double>> facets;
+
+  std::vector<PlanePoint<double>> normals(const std::vector<PlanePoint<double>> &at) const
+  {
+    std::vector<PlanePoint<double>> normal;
+    for (int a = 0; a < geometry.slave_chain.node_count(); ++a)
+      normal.push_back(
+          nodal_normal<double>(geometry.slave_chain, a, geometry.nodes[a].on_axis, [&](int b) { return at[b]; }));
+    return normal;
+  }
+  NodeContact<double> contact_of(int a) const
+  {
+    NodeContact<double> node;
+    node.x = x[a];
+    node.n = n[a];
+    add_mortar_row(geometry.slave_chain, a, facets, node);
+    add_kinematics(geometry, a, now, y, node);
+    return node;
+  }
+  double current_area(int a) const;
+  void without_multiplier(int a, NodeBlock &block) const;
+};
+
+inline MortarReport AxisymmetricContact::update(const ContactState<double> &state, FacetPairs pairs, bool derivatives,
+                                                int first, int last)
+{
+  const LineChain &chain = geometry.slave_chain;
+  if (last < 0) last = chain.node_count();
+  now = state;
+  with_derivatives = derivatives;
+  x = positions(geometry.slave, state.slave);
+  y = positions(geometry.master, state.master);
+  n = normals(x);
+  dn.assign(derivatives ? chain.node_count() : 0, {});
+  facets.assign(chain.facet_count(), {});
+
+  std::vector<bool> wanted(chain.facet_count());
+  for (int a = first; a < last; ++a)
+    for (int k = 0; k < chain.neighbours[a].count; ++k) wanted[chain.neighbours[a].of[k].facet] = true;
+
+  MortarReport report;
+  for (int f = 0; f < chain.facet_count(); ++f) {
+    if (!wanted[f]) continue;
+    const FacetPairs candidates = pairs_of(pairs, f);
+    if (derivatives) {
+      for (int b = 0; b < chain.facet_nodes; ++b) {
+        const int node = chain.facets[f][b];
+        if (dn[node].n.z == 0) dn[node] = nodal_normal_derivative(chain, node, geometry.nodes[node].on_axis, x);
+      }
+      facets[f] = facet_mortar_derivative(geometry, f, candidates, x, n, y);
+    } else
+      facets[f] = facet_mortar<double>(geometry, f, candidates, x, n, y);
+    if (facets[f].status != MortarStatus::ok && report.status == MortarStatus::ok)
+      report.status = facets[f].status, report.facet = f;
+    const int outer = chain.facets[f][1];
+    if (outer >= first && outer < last) report.overhang += facets[f].overhang;
+  }
+  return report;
+}
+
+template <FrictionLaw<Dual<10>> Law> void AxisymmetricContact::node(int a, const Law &law, NodeBlock &block) const
+{
+  if (!geometry.nodes[a].carries) return without_multiplier(a, block);
+  const NodeContact<double> contact = contact_of(a);
+  const Vector3<double> &lambda = now.multiplier[a];
+  const auto values = node_residual<double>(geometry, a, contact, lambda, now.shift, law);
+  block.slave_nodes = slave_neighbourhood(geometry, a);
+  block.master_nodes = contact.masters;
+  block.status = values.status;
+  const int masters = static_cast<int>(contact.masters.size());
+  block.residual.resize(6 + 3 * masters);
+  block.residual.head<3>() = values.slave;
+  for (int k = 0; k < masters; ++k) block.residual.segment<3>(3 + 3 * k) = values.master[k];
+  block.residual.tail<3>() = values.condition;
+  if (!with_derivatives) return;
+
+  using D = Dual<10>; // multiplier 0..2, gap 3, velocity 4..6, normal 7..9
+  ContactPoint<D> point;
+  const double normal[3] = {contact.n.r, 0, contact.n.z};
+  point.gap = D::seed(contact.gap, 3);
+  for (int i = 0; i < 3; ++i) {
+    point.multiplier[i] = D::seed(lambda[i], i);
+    point.velocity[i] = D::seed(contact.velocity[i], 4 + i);
+    point.normal[i] = D::seed(normal[i], 7 + i);
+  }
+  const auto &constants = geometry.nodes[a];
+  const auto C = contact_condition<D>(point, {constants.c_N, constants.c_N / now.shift}, law, constants.on_axis);
+  Eigen::Matrix<double, 3, 10> slope;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 10; ++j) slope(i, j) = constants.D * C.residual[i].d[j];
+  const NodeDerivative derivative(geometry, now, contact, y, dn, facets, a, block.slave_nodes);
+  derivative.assemble(slope, block.jacobian);
+}
+
+inline void AxisymmetricContact::without_multiplier(int a, NodeBlock &block) const
+{
+  const double scale = geometry.nodes[a].extent;
+  block.slave_nodes = {a};
+  block.master_nodes.clear();
+  block.status = ContactStatus::open;
+  block.residual.setZero(6);
+  block.residual.tail<3>() = scale * now.multiplier[a];
+  if (!with_derivatives) return;
+  block.jacobian.setZero(6, 6);
+  block.jacobian.bottomRightCorner<3, 3>().diagonal().setConstant(scale);
+}
+
+inline double AxisymmetricContact::current_area(int a) const
+{
+  static const auto rule = gauss_rule<5>();
+  const LineChain &chain = geometry.slave_chain;
+  const auto over_facet = [&]<int nodes>(LineChain::FacetNode at) {
+    const auto points = chain.on_facet<nodes>(at.facet, x);
+    double area = 0;
+    for (int q = 0; q < 5; ++q) {
+      const auto shape = facet_shape<nodes>(rule.point[q]);
+      area += rule.weight[q] * shape.N[at.local] * 2 * std::numbers::pi * interpolate(shape.N, points).r *
+              length(interpolate(shape.dN, points));
+    }
+    return area;
+  };
+  double area = 0;
+  for (int k = 0; k < chain.neighbours[a].count; ++k)
+    area += chain.facet_nodes == 2 ? over_facet.template operator()<2>(chain.neighbours[a].of[k])
+                                   : over_facet.template operator()<3>(chain.neighbours[a].of[k]);
+  return area;
+}
+
+template <FrictionLaw<double> Law> NodeResult AxisymmetricContact::result(int a, const Law &law) const
+{
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto &constants = geometry.nodes[a];
+  const Vector3<double> undefined = Vector3<double>::Constant(nan);
+  if (!constants.carries)
+    return {false, ContactStatus::open, constants.D, nan, nan, nan, undefined, undefined, undefined, undefined};
+  const NodeContact<double> node = contact_of(a);
+  const Vector3<double> &lambda = now.multiplier[a], normal(node.n.r, 0, node.n.z);
+  const double area = current_area(a);
+  const Vector3<double> cauchy = constants.D / area * lambda;
+  const ContactStatus status = node_residual<double>(geometry, a, node, lambda, now.shift, law).status;
+  return {true,   status,   constants.D,
+          area,   node.gap, -cauchy.dot(normal),
+          lambda, cauchy,   node.velocity - node.velocity.dot(normal) * normal,
+          normal};
+}
+
+} // namespace tribogel

@@ -1,0 +1,60 @@
+/// The bodies' internal forces and their tangent: a loop over this rank's cells that gathers, calls the element and
+/// scatters. It knows neither dimension nor material.
+#pragma once
+
+#include "mesh/mesh.hpp"
+#include "tribogel/element/mean_dilatation.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tribogel
+{
+
+/// Internal variables at all quadrature points of this rank, cell by cell; hyperelastic cells take no room.
+using History = std::vector<double>;
+
+/// Why and where an evaluation failed on this rank.
+struct BulkFailure {
+  PointStatus status = PointStatus::ok;
+  int body = 0;
+  std::array<double, 2> X{}; ///< centre of the cell, reference (R, Z) [mm]
+
+  explicit operator bool() const { return status != PointStatus::ok; }
+};
+
+class Bulk
+{
+public:
+  virtual ~Bulk() = default;
+
+  /// Forces of the displacements in the local array `U` (prescribed ones included) are added to the local array `F`
+  /// [N], and their absolute values to `magnitude`, against which a residual is small.
+  virtual BulkFailure AddResidual(const double *U, const History &history, StepWeights step, double *F,
+                                  double *magnitude) const = 0;
+
+  /// Adds the tangent to the matrix `A` (global, with a local-to-global mapping). Collective only in assembly.
+  virtual PetscErrorCode AddJacobian(const double *U, const History &history, StepWeights step, Mat A,
+                                     BulkFailure &failure) const = 0;
+
+  /// Inserts zeros where AddJacobian will add.
+  virtual PetscErrorCode AddPattern(Mat A) const = 0;
+
+  /// Internal variables at the end of a step that ended at U, and the energies of this rank's cells.
+  virtual BulkFailure Advance(const double *U, const History &history, StepWeights step, History &next,
+                              CellEnergy &energy) const = 0;
+
+  virtual History InitialHistory() const = 0;
+
+  /// Round-off that the forces of a stress-free body carry: machine epsilon times bulk modulus times int |grad N| dV
+  /// [N], added to the local array.
+  virtual void AddRoundOff(double *magnitude) const = 0;
+
+  static PetscErrorCode Create(const Mesh &mesh, const Scene &scene, std::unique_ptr<Bulk> &bulk);
+};
+
+/// In words, for messages.
+std::string describe(const BulkFailure &failure);
+
+} // namespace tribogel

@@ -1,0 +1,101 @@
+/// tribogel: two gels in a rheometer. Options in; force, torque and friction out; see -help.
+#include "observe/progress.hpp"
+#include "scene/help.hpp"
+#include "scene/output_directory.hpp"
+#include "scene/petsc_options.hpp"
+#include "scene/report.hpp"
+#include "support/exit_status.hpp"
+#include "support/petsc_session.hpp"
+#include "support/version.hpp"
+
+#include <cstdio>
+
+namespace tribogel
+{
+
+namespace
+{
+
+void print(const std::string &text)
+{
+  int rank;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0) std::fputs(text.c_str(), stdout);
+}
+
+std::string version_text()
+{
+  char petsc[256];
+  PetscGetVersion(petsc, sizeof petsc);
+  return std::string("tribogel ") + version + " (" + petsc + ")\n";
+}
+
+/// Options -> scene -> mesh, bulk, contact -> TS -> observers -> files.
+PetscErrorCode Run(const CommandLine &line, int &status)
+{
+  const MPI_Comm comm = PETSC_COMM_WORLD;
+  const double start = MPI_Wtime();
+  SceneInput input;
+  Problem problem;
+  RunOutcome outcome;
+  RunCost cost;
+  std::string petsc_help;
+  bool completed;
+  PetscMPIInt rank;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(ReadScene(input));
+  PetscCall(problem.SetUp(comm, input.scene));
+  PetscCall(problem.ProbeSolver());
+  PetscCall(TakePetscHelp(petsc_help));
+  if (line.help == HelpRequest::petsc) {
+    print(help_text() + "\nPETSc\n" + petsc_help);
+    PetscFunctionReturn(0);
+  }
+  PetscCall(CheckUnusedOptions(line, petsc_help, input.warnings));
+  const std::string &directory = input.scene.output.directory;
+  PetscCall(PrepareOutputDirectory(comm, input.scene.output));
+  print(scene_report(input));
+
+  set_error_status(exit_status::cannot_go_on);
+  Recorder recorder(directory);
+  Progress progress(input.scene.schedule, rank == 0);
+  recorder.on_row = [&progress](const HistoryRow &row) { progress.show(row); };
+  PetscCall(problem.Run({&recorder}, completed, outcome.reason));
+  status = outcome.status = completed ? exit_status::completed : exit_status::cannot_go_on;
+  PetscCall(MeasureCost(comm, start, cost));
+  PetscCall(WriteSummary(comm, directory, problem, recorder, outcome, cost, resolved_options(input), input.warnings));
+  progress.finish(recorder, problem.counts, outcome, cost, directory);
+  if (!completed) print_error(outcome.reason);
+  PetscFunctionReturn(0);
+}
+
+int run(const std::vector<std::string> &words)
+{
+  const CommandLine line = read_command_line(words);
+  if (line.help == HelpRequest::version) return print(version_text()), exit_status::completed;
+  if (line.help == HelpRequest::table) return print(help_text()), exit_status::completed;
+  if (line.help == HelpRequest::markdown) return print(help_markdown()), exit_status::completed;
+  check_sources(line);
+  const PetscSession petsc(line.words);
+  if (!petsc.started()) return error_status();
+  int status = exit_status::completed;
+  return Run(line, status) == 0 ? status : error_status();
+}
+
+} // namespace
+
+} // namespace tribogel
+
+int main(int argc, char **argv)
+{
+  MPI_Init(&argc, &argv);
+  int status = tribogel::exit_status::bad_input;
+  try {
+    status = tribogel::run({argv, argv + argc});
+  } catch (const tribogel::UserError &error) {
+    tribogel::print_error(error.text);
+  }
+  MPI_Finalize();
+  return status;
+}

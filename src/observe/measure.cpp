@@ -1,0 +1,153 @@
+#include "observe/measure.hpp"
+
+#include "tribogel/friction/rheometer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tribogel
+{
+
+namespace
+{
+
+/// Sum of the reactions at the top plate [N], as forces of the plate on the gel: axial, and times L a torque.
+PetscErrorCode PlateReaction(Problem &problem, const double *U, Measurement &measurement)
+{
+  Vec forces, sizes;
+  PetscScalar *f, *s;
+  double sums[2] = {0, 0};
+  PetscFunctionBeginUser;
+  PetscCall(DMGetLocalVector(problem.mesh.dm, &forces));
+  PetscCall(DMGetLocalVector(problem.mesh.dm, &sizes));
+  PetscCall(VecZeroEntries(forces));
+  PetscCall(VecGetArray(forces, &f));
+  PetscCall(VecGetArray(sizes, &s));
+  const StepWeights frozen{0, 0}; // the internal variables are those at the end of the step
+  const BulkFailure failure = problem.bulk->AddResidual(U, problem.state.history, frozen, f, s);
+  PetscCheck(!failure, PETSC_COMM_SELF, PETSC_ERR_PLIB, "a converged state cannot be evaluated");
+  for (const Node &node : problem.mesh.nodes) {
+    if (!node.on(Side::top_plate)) continue;
+    sums[0] -= f[node.displacement + 2];
+    sums[1] += f[node.displacement + 1] * problem.scene.twist_length();
+  }
+  PetscCall(VecRestoreArray(sizes, &s));
+  PetscCall(VecRestoreArray(forces, &f));
+  PetscCall(DMRestoreLocalVector(problem.mesh.dm, &sizes));
+  PetscCall(DMRestoreLocalVector(problem.mesh.dm, &forces));
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(problem.mesh.dm)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm));
+  measurement.normal_force = sums[0];
+  measurement.torque = sums[1];
+  PetscFunctionReturn(0);
+}
+
+double tangential(const NodeResult &node)
+{
+  return (node.cauchy + node.pressure * node.normal).norm();
+}
+
+/// Friction coefficients over the nodes that touch.
+void average(const Problem &problem, const ContactState<double> &state, const std::vector<NodeResult> &nodes,
+             Measurement &m)
+{
+  double count = 0, sum = 0, area = 0, area_sum = 0, force = 0, friction = 0, radius = 0;
+  const AxisymmetricContact &model = problem.contact->model();
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    const NodeResult &node = nodes[a];
+    if (!node.carries || node.status == ContactStatus::open || !(node.pressure > 0)) continue;
+    const double mu = tangential(node) / node.pressure, A = node.area;
+    count += 1;
+    sum += mu;
+    area += A;
+    area_sum += A * mu;
+    force += A * node.pressure;
+    friction += A * node.pressure * mu;
+    radius = std::max(radius, position(model.reference().slave, state.slave, static_cast<int>(a)).r);
+  }
+  if (count == 0) return;
+  const Scene &scene = problem.scene;
+  const double N = m.normal_force, R = scene.top.radius;
+  m.contact_radius = radius;
+  if (!(N > 0)) return;
+  m.mu_apparent = apparent_coefficient(scene.friction, m.torque, N, R, problem.phase().rate);
+  m.mu_gong = gong_coefficient(m.torque, N, R);
+  m.mu_mean = sum / count;
+  m.mu_area_weighted = area_sum / area;
+  m.mu_pressure_weighted = friction / force;
+}
+
+const char *name_of(ContactStatus status)
+{
+  return status == ContactStatus::open ? "open" : status == ContactStatus::stick ? "stick" : "slip";
+}
+
+ProfileRow row_at(const char *surface, const SurfaceReference &reference, const SurfaceState<double> &state, int a,
+                  double twist_length, double rotation)
+{
+  const PlanePoint<double> x = position(reference, state, a);
+  ProfileRow row{};
+  row.surface = surface;
+  row.reference_r = reference.X[a].r;
+  row.reference_z = reference.X[a].z;
+  row.r = x.r;
+  row.theta = state.u[a][1] / twist_length + rotation;
+  row.z = x.z;
+  row.pressure = row.traction_radial = row.traction_circumferential = row.sliding_velocity = row.mu = undefined;
+  row.status = "nan";
+  return row;
+}
+
+void tabulate(const Problem &problem, const ContactState<double> &state, const std::vector<NodeResult> &nodes,
+              std::vector<ProfileRow> &profile)
+{
+  const ContactGeometry &geometry = problem.contact->model().reference();
+  const double L = problem.scene.twist_length(), time = problem.state.time;
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    ProfileRow row = row_at("top", geometry.slave, state.slave, static_cast<int>(a), L, problem.phase().rotation(time));
+    const NodeResult &node = nodes[a];
+    if (node.carries) {
+      row.pressure = node.pressure;
+      row.traction_radial = node.cauchy[0];
+      row.traction_circumferential = node.cauchy[1];
+      row.sliding_velocity = node.velocity.norm();
+      row.status = name_of(node.status);
+      if (node.status != ContactStatus::open && node.pressure > 0) row.mu = tangential(node) / node.pressure;
+    }
+    profile.push_back(row);
+  }
+  for (std::size_t a = 0; a < geometry.master.X.size(); ++a)
+    profile.push_back(row_at("bottom", geometry.master, state.master, static_cast<int>(a), L,
+                             problem.scene.bottom_plate_rate * time));
+}
+
+} // namespace
+
+PetscErrorCode Measure(Problem &problem, Measurement &measurement, std::vector<ProfileRow> *profile)
+{
+  Vec U, Udot;
+  const PetscScalar *u, *rate;
+  PetscFunctionBeginUser;
+  measurement = {};
+  PetscCall(DMGetLocalVector(problem.mesh.dm, &U));
+  PetscCall(DMGetLocalVector(problem.mesh.dm, &Udot));
+  PetscCall(problem.LocalState(U, Udot));
+  PetscCall(VecGetArrayRead(U, &u));
+  PetscCall(VecGetArrayRead(Udot, &rate));
+  PetscCall(PlateReaction(problem, u, measurement));
+  if (problem.contact) {
+    ContactState<double> state;
+    std::vector<NodeResult> nodes;
+    PetscCall(problem.contact->Results(problem.frames(problem.state.time), u, rate, state, nodes,
+                                       measurement.contact_force, measurement.contact_torque));
+    average(problem, state, nodes, measurement);
+    if (profile) tabulate(problem, state, nodes, *profile);
+  }
+  PetscCall(VecRestoreArrayRead(Udot, &rate));
+  PetscCall(VecRestoreArrayRead(U, &u));
+  PetscCall(DMRestoreLocalVector(problem.mesh.dm, &Udot));
+  PetscCall(DMRestoreLocalVector(problem.mesh.dm, &U));
+  PetscFunctionReturn(0);
+}
+
+} // namespace tribogel

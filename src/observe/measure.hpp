@@ -1,0 +1,41 @@
+/// The numbers a rheometer user looks at, as functions of the state: axial force and torque from the plate's reactions
+/// and from the contact tractions, the friction coefficients, the contact patch.
+#pragma once
+
+#include "solve/problem.hpp"
+
+#include <limits>
+
+namespace tribogel
+{
+
+inline constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+struct Measurement {
+  double normal_force = 0; ///< reaction of the top plate, positive in compression [N]
+  double torque = 0;       ///< of the top plate, positive when it opposes a rotation about +z [N mm]
+  double contact_force = undefined, contact_torque = undefined; ///< the same from the contact tractions
+  double contact_radius = undefined;                            ///< [mm]
+  double mu_apparent = undefined, mu_gong = undefined;          ///< eqs. (3.13), (2.3)
+  double mu_mean = undefined;                                   ///< over the patch's nodes, unweighted
+  double mu_area_weighted = undefined, mu_pressure_weighted = undefined;
+
+  double force_mismatch() const { return normal_force - contact_force; }
+  double torque_mismatch() const { return torque - contact_torque; }
+};
+
+/// One node of a contact surface at a phase's end, in the space-fixed frame.
+struct ProfileRow {
+  const char *surface;
+  double reference_r, reference_z; ///< [mm]; the reference angle is 0
+  double r, theta, z;              ///< [mm], [rad]
+  double pressure = undefined, traction_radial = undefined, traction_circumferential = undefined; ///< Cauchy [MPa]
+  double sliding_velocity = undefined; ///< [mm/s]
+  double mu = undefined;
+  const char *status = "";
+};
+
+/// Collective. `profile` may be null.
+PetscErrorCode Measure(Problem &problem, Measurement &measurement, std::vector<ProfileRow> *profile);
+
+} // namespace tribogel

@@ -1,0 +1,62 @@
+#include "observe/progress.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace tribogel
+{
+
+Progress::Progress(const Schedule &phases, bool is_first_rank)
+    : schedule(phases), speaks(is_first_rank), terminal(isatty(STDOUT_FILENO)), start(MPI_Wtime())
+{
+}
+
+/// Steps grow within a phase, so time left is guessed from phases done, not from seconds simulated.
+std::string Progress::estimate_left(double time) const
+{
+  double done = 0;
+  for (const Phase &phase : schedule) {
+    const double elapsed = (time - phase.start_time) / (1e-5 * phase.duration());
+    if (elapsed > 0) done += std::min(1.0, std::log1p(elapsed) / std::log1p(1e5));
+  }
+  if (done <= 0) return "";
+  const double spent = MPI_Wtime() - start, left = spent * (static_cast<double>(schedule.size()) / done - 1);
+  char text[32];
+  std::snprintf(text, sizeof text, "  about %.0f s left", left);
+  return text;
+}
+
+void Progress::show(const HistoryRow &row)
+{
+  const bool ends = row.report.ends_phase;
+  if (!speaks || !(terminal || ends)) return;
+  const Measurement &m = row.measurement;
+  std::printf("%sphase %d/%zu  t = %-10.6g s  step %-9.3g s  %2d Newton  N = %-10.6g N  T = %-11.6g N mm  mu = %-10.4g%s%s",
+              terminal ? "\r" : "", row.phase, schedule.size(), row.time, row.step,
+              static_cast<int>(row.report.newton_iterations), m.normal_force, m.torque, m.mu_pressure_weighted,
+              ends ? "                     " : estimate_left(row.time).c_str(), ends ? "\n" : "  ");
+  std::fflush(stdout);
+}
+
+void Progress::finish(const Recorder &recorder, const SolveCounts &counts, const RunOutcome &outcome,
+                      const RunCost &cost, const std::string &directory) const
+{
+  if (!speaks) return;
+  std::printf("\n%5s %10s %12s %12s %14s %12s %13s %13s\n", "phase", "time s", "rate rad/s", "N  N", "T  N mm",
+              "radius mm", "mu apparent", "mu weighted");
+  for (const PhaseEnd &end : recorder.phases) {
+    const Measurement &m = end.measurement;
+    std::printf("%5d %10.6g %12.6g %12.7g %14.7g %12.6g %13.6g %13.6g\n", end.phase, end.time, end.rate,
+                m.normal_force, m.torque, m.contact_radius, m.mu_apparent, m.mu_pressure_weighted);
+  }
+  std::printf("\n%d steps (%d rejected, %d failed solves), %d Newton iterations, %.1f CPU s, %.1f s, %.0f MB on %d rank%s\n",
+              static_cast<int>(counts.accepted_steps), static_cast<int>(counts.rejected_steps),
+              static_cast<int>(counts.failed_solves), static_cast<int>(counts.newton_iterations), cost.cpu_seconds,
+              cost.wall_seconds, cost.peak_memory_MB, cost.ranks, cost.ranks == 1 ? "" : "s");
+  std::printf("%s %s\n", outcome.status == 0 ? "complete; files in" : "NOT complete; what there is, in",
+              directory.c_str());
+}
+
+} // namespace tribogel

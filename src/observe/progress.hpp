@@ -1,0 +1,25 @@
+/// The console: a live line on a terminal, one line a phase elsewhere, a table at the end. First rank only.
+#pragma once
+
+#include "observe/summary.hpp"
+
+namespace tribogel
+{
+
+class Progress
+{
+public:
+  Progress(const Schedule &schedule, bool speaks);
+  void show(const HistoryRow &row);
+  void finish(const Recorder &recorder, const SolveCounts &counts, const RunOutcome &outcome, const RunCost &cost,
+              const std::string &directory) const;
+
+private:
+  std::string estimate_left(double time) const;
+
+  Schedule schedule;
+  bool speaks, terminal;
+  double start;
+};
+
+} // namespace tribogel

@@ -1,0 +1,52 @@
+/// Measures each accepted step and writes history.csv (a row a step) and profile.csv (the surfaces at each phase's end).
+/// Rows are flushed as they come, so that nothing is lost when a run dies.
+#pragma once
+
+#include "observe/measure.hpp"
+
+#include <fstream>
+#include <functional>
+
+namespace tribogel
+{
+
+/// What the end of a phase looked like.
+struct PhaseEnd {
+  int phase; ///< counted from 1
+  double time, approach, rotation, rate;
+  Measurement measurement;
+  double centre_displacement, rim_displacement; ///< of the bottom surface under the top gel's centre and rim, down [mm]
+};
+
+/// One accepted step as the files and the console show it.
+struct HistoryRow {
+  double time, approach, rotation, rate, step;
+  int phase; ///< counted from 1
+  Measurement measurement;
+  StepReport report;
+};
+
+class Recorder : public Observer
+{
+public:
+  /// `directory` empty: nothing is written, the numbers are kept only.
+  explicit Recorder(std::string where) : directory(std::move(where)) {}
+
+  PetscErrorCode Start(Problem &problem) override;
+  PetscErrorCode Step(Problem &problem, const StepReport &report) override;
+
+  std::vector<HistoryRow> rows;
+  std::vector<PhaseEnd> phases;
+  std::vector<ProfileRow> last_profile;                  ///< at the end of the last completed phase
+  std::function<void(const HistoryRow &)> on_row = {};   ///< e.g. the progress line
+
+private:
+  PetscErrorCode Record(Problem &problem, const StepReport &report);
+  void write_row(const HistoryRow &row);
+  void write_profile(double time, int phase);
+
+  std::string directory;
+  std::ofstream history, profile;
+};
+
+} // namespace tribogel

@@ -1,0 +1,128 @@
+#include "observe/summary.hpp"
+
+#include "support/version.hpp"
+
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+namespace tribogel
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no NaN.
+Json number(double x)
+{
+  return std::isfinite(x) ? Json(x) : Json(nullptr);
+}
+
+Json describe(const PhaseEnd &end)
+{
+  const Measurement &m = end.measurement;
+  return {{"phase", end.phase},
+          {"time_s", end.time},
+          {"approach_mm", end.approach},
+          {"rotation_rad", end.rotation},
+          {"rate_rad_per_s", end.rate},
+          {"normal_force_N", number(m.normal_force)},
+          {"torque_Nmm", number(m.torque)},
+          {"contact_radius_mm", number(m.contact_radius)},
+          {"mu_apparent", number(m.mu_apparent)},
+          {"mu_gong", number(m.mu_gong)},
+          {"mu_mean", number(m.mu_mean)},
+          {"mu_area_weighted", number(m.mu_area_weighted)},
+          {"mu_pressure_weighted", number(m.mu_pressure_weighted)},
+          {"bottom_surface_centre_displacement_mm", number(end.centre_displacement)},
+          {"bottom_surface_rim_displacement_mm", number(end.rim_displacement)}};
+}
+
+/// Largest imbalance between plate and contact over the run, absolute and relative to the largest force and torque.
+Json balances(const Recorder &recorder)
+{
+  double force = 0, torque = 0, most_force = 0, most_torque = 0;
+  for (const HistoryRow &row : recorder.rows) {
+    force = std::max(force, std::abs(row.measurement.force_mismatch()));
+    torque = std::max(torque, std::abs(row.measurement.torque_mismatch()));
+    most_force = std::max(most_force, std::abs(row.measurement.normal_force));
+    most_torque = std::max(most_torque, std::abs(row.measurement.torque));
+  }
+  return {{"max_normal_force_N", most_force},
+          {"max_torque_Nmm", most_torque},
+          {"max_force_mismatch_N", force},
+          {"max_torque_mismatch_Nmm", torque}};
+}
+
+} // namespace
+
+PetscErrorCode MeasureCost(MPI_Comm comm, double wall_start, RunCost &cost)
+{
+  rusage usage{};
+  PetscFunctionBeginUser;
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval &t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  double sums[2] = {seconds(usage.ru_utime) + seconds(usage.ru_stime), static_cast<double>(usage.ru_maxrss) / 1024};
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm));
+  cost.cpu_seconds = sums[0];
+  cost.peak_memory_MB = sums[1];
+  cost.wall_seconds = MPI_Wtime() - wall_start;
+  PetscCallMPI(MPI_Comm_size(comm, &cost.ranks));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode WriteSummary(MPI_Comm comm, const std::string &directory, const Problem &problem,
+                            const Recorder &recorder, const RunOutcome &outcome, const RunCost &cost,
+                            const std::vector<std::pair<std::string, std::string>> &options,
+                            const std::vector<std::string> &warnings)
+{
+  PetscMPIInt rank;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  if (rank) PetscFunctionReturn(0);
+  char petsc[256];
+  PetscCall(PetscGetVersion(petsc, sizeof petsc));
+  Json json;
+  json["program"] = {{"name", "tribogel"}, {"version", version}, {"petsc", petsc}};
+  json["status"] = outcome.status;
+  json["reason"] = outcome.reason;
+  json["time_s"] = problem.state.time;
+  for (const auto &[name, value] : options) json["options"][name] = value;
+  json["warnings"] = warnings;
+  json["phases"] = Json::array();
+  for (const PhaseEnd &end : recorder.phases) json["phases"].push_back(describe(end));
+  json["balances"] = balances(recorder);
+  int most_newton = 0;
+  double longest = 0;
+  for (const HistoryRow &row : recorder.rows) {
+    most_newton = std::max(most_newton, static_cast<int>(row.report.newton_iterations));
+    longest = std::max(longest, row.step);
+  }
+  const SolveCounts &counts = problem.counts;
+  json["counts"] = {{"unknowns", problem.mesh.unknowns},
+                    {"accepted_steps", counts.accepted_steps},
+                    {"rejected_steps", counts.rejected_steps},
+                    {"failed_solves", counts.failed_solves},
+                    {"newton_iterations", counts.newton_iterations},
+                    {"largest_newton_iterations", most_newton},
+                    {"linear_iterations", counts.linear_iterations},
+                    {"matrix_pattern_rebuilds", counts.pattern_rebuilds},
+                    {"longest_step_s", longest}};
+  json["cost"] = {{"ranks", cost.ranks},
+                  {"cpu_s", cost.cpu_seconds},
+                  {"wall_s", cost.wall_seconds},
+                  {"peak_memory_MB", cost.peak_memory_MB}};
+  const std::string path = directory + "/summary.json", temporary = path + ".part";
+  std::ofstream(temporary) << json.dump(2) << std::endl;
+  PetscCheck(std::rename(temporary.c_str(), path.c_str()) == 0, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE,
+             "cannot write %s", path.c_str());
+  PetscFunctionReturn(0);
+}
+
+} // namespace tribogel

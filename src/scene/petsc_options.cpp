@@ -1,0 +1,222 @@
+#include "scene/petsc_options.hpp"
+
+#include "scene/nearest_name.hpp"
+#include "scene/option_table.hpp"
+#include "scene/output_directory.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <regex>
+#include <sstream>
+
+namespace tribogel
+{
+
+namespace
+{
+
+struct LeftOption {
+  std::string name, text; ///< name without the first dash
+};
+
+/// Options in the database that nothing has asked for.
+PetscErrorCode GetLeftOptions(std::vector<LeftOption> &left)
+{
+  PetscInt count;
+  char **names, **texts;
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsLeftGet(nullptr, &count, &names, &texts));
+  for (PetscInt i = 0; i < count; ++i) left.push_back({names[i], texts[i] ? texts[i] : ""});
+  PetscCall(PetscOptionsLeftRestore(nullptr, &count, &names, &texts));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode GetOption(const std::string &name, GivenOptions &given, bool &found)
+{
+  const char *text = nullptr;
+  PetscBool set;
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsFindPair(nullptr, nullptr, name.c_str(), &text, &set));
+  if (set) given[name] = text ? text : "";
+  found = set;
+  PetscFunctionReturn(0);
+}
+
+std::vector<std::string> own_names()
+{
+  std::vector<std::string> names;
+  for (const OptionGroup &group : option_table())
+    for (const Option &option : group.options) names.push_back(option.name);
+  return names;
+}
+
+std::string without_dashes(const std::string &name)
+{
+  const std::size_t first = name.find_first_not_of('-');
+  std::string text = first == std::string::npos ? "" : name.substr(first);
+  for (char &c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// First words of our names, in use or kept for us; no option of PETSc begins like that.
+bool begins_like_ours(const std::string &name)
+{
+  static const char *const words[] = {"model",    "task",      "specimens",  "top",      "bottom",  "initial", "plate",
+                                      "friction", "schedule",  "element",    "elements", "contact", "maxwell", "time",
+                                      "output",   "overwrite", "checkpoint", "restart",  "wall"};
+  const std::string plain = without_dashes(name);
+  const std::string first = plain.substr(0, plain.find('_'));
+  return std::any_of(std::begin(words), std::end(words), [&](const char *word) { return first == word; }) ||
+         plain.starts_with("mesh_") || plain == "error_estimate";
+}
+
+std::string with_value(const std::string &name, const std::string &text)
+{
+  return "-" + name + (text.empty() ? "" : " = " + text);
+}
+
+std::string unknown_text(const std::string &name, const std::string &text, const std::vector<std::string> &known)
+{
+  static const std::regex branch(
+      "(top|bottom)_maxwell([0-9]+)_(ogden_moduli|ogden_exponents|bulk_modulus|viscosities)");
+  if (std::regex_match(without_dashes(name), branch))
+    return with_value(name, text) + ": no branch of that number; allowed: -top_maxwell_..., -top_maxwell2_..., "
+                                    "-top_maxwell3_... and so on (likewise bottom), numbered without gaps";
+  const std::string nearest = nearest_name("-" + without_dashes(name), known, std::max(4, plausible_distance(name)));
+  return with_value(name, text) + ": unknown option; allowed: the names in -help and -help petsc" +
+         (nearest.empty() ? "" : "; the nearest is " + nearest);
+}
+
+/// Options that PETSc reads only when it stops, when a solve ends, or whenever it likes.
+bool is_read_late(const std::string &name)
+{
+  static const char *const exact[] = {"citations", "get_total_flops", "mpidump", "objects_dump", "options_left", "help",
+                                      "h",         "skip_petscrc",    "nox",     "saved_options"};
+  for (const char *word : exact)
+    if (name == word) return true;
+  for (const char *stem :
+       {"options_view", "options_monitor", "malloc", "log_", "memory_", "info", "history", "checkstack"})
+    if (name.starts_with(stem)) return true;
+  for (const char *stem : {"ts_", "snes_", "ksp_", "pc_", "mat_", "vec_", "dm_", "sub_", "mg_", "fieldsplit_"})
+    if (name.starts_with(stem) && (name.find("_view") != std::string::npos || name.ends_with("_converged_reason")))
+      return true;
+  return false;
+}
+
+/// Our names, the ones PETSc reads at its start, and those in its help texts, where each stands as
+/// "  -name: <default> ..." or "  -name <now default> ...".
+std::vector<std::string> all_names(const std::string &help)
+{
+  std::vector<std::string> names = own_names();
+  for (const char *name : {"-options_file", "-options_left", "-options_view", "-log_view", "-malloc_debug",
+                           "-malloc_dump", "-memory_view", "-info", "-skip_petscrc", "-help"})
+    names.push_back(name);
+  std::istringstream words(help);
+  for (std::string word; words >> word;) {
+    word.resize(std::min(word.find_first_of(":<,"), word.size()));
+    if (is_option_name(word)) names.push_back(word);
+  }
+  return names;
+}
+
+} // namespace
+
+void check_sources(const CommandLine &line)
+{
+  std::string complaint;
+  int rank;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0) {
+    try {
+      if (const char *text = std::getenv("PETSC_OPTIONS")) check_environment_options(text);
+      for (const std::string &path : line.options_files) check_options_file(path);
+    } catch (const UserError &error) {
+      complaint = error.text;
+    }
+  }
+  int length = static_cast<int>(complaint.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  complaint.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(complaint.data(), length, MPI_CHAR, 0, MPI_COMM_WORLD);
+  if (length > 0) throw UserError{complaint};
+}
+
+PetscErrorCode ReadGivenOptions(GivenOptions &given)
+{
+  bool found;
+  std::vector<LeftOption> left;
+  PetscFunctionBeginUser;
+  for (const std::string &name : own_names()) PetscCall(GetOption(name, given, found));
+  for (const std::string body : {"top", "bottom"}) {
+    bool any = true;
+    for (int branch = 2; any; ++branch) {
+      any = false;
+      for (const std::string &name : branch_names(body, branch).all()) {
+        PetscCall(GetOption(name, given, found));
+        any = any || found;
+      }
+    }
+  }
+  PetscCall(GetLeftOptions(left));
+  for (const LeftOption &option : left) {
+    const std::string plain = "-" + without_dashes(option.name);
+    if (begins_like_ours(option.name) || !nearest_name(plain, own_names(), plausible_distance(plain)).empty())
+      throw UserError{unknown_text(option.name, option.text, own_names())};
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ReadScene(SceneInput &input)
+{
+  GivenOptions given;
+  PetscFunctionBeginUser;
+  PetscCall(ReadGivenOptions(given));
+  input = scene_from_options(given);
+  PetscCall(CheckOutputDirectory(PETSC_COMM_WORLD, input.scene.output));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode CheckUnusedOptions(const CommandLine &line, const std::string &petsc_help,
+                                  std::vector<std::string> &warnings)
+{
+  std::vector<LeftOption> left;
+  PetscFunctionBeginUser;
+  PetscCall(GetLeftOptions(left));
+  for (const LeftOption &option : left) {
+    if (is_read_late(without_dashes(option.name))) continue;
+    std::string lower = option.name;
+    for (char &c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (line.names.count(lower) == 0) {
+      warnings.push_back(with_value(option.name, option.text) +
+                         " (from a file or PETSC_OPTIONS) was read by no part of the program");
+      continue;
+    }
+    throw UserError{unknown_text(option.name, option.text, all_names(petsc_help))};
+  }
+  PetscFunctionReturn(0);
+}
+
+std::vector<std::pair<std::string, std::string>> resolved_options(const SceneInput &input)
+{
+  std::vector<std::pair<std::string, std::string>> all = input.options;
+  const char *environment = std::getenv("PETSC_OPTIONS");
+  all.emplace_back("PETSC_OPTIONS", environment ? environment : "");
+  char *text = nullptr;
+  if (PetscOptionsGetAll(nullptr, &text) != 0) return all;
+  std::istringstream words(text ? text : "");
+  bool own = true;
+  for (std::string word; words >> word;) {
+    if (is_option_name(word)) {
+      own = std::any_of(input.options.begin(), input.options.end(),
+                        [&](const auto &option) { return option.first == without_dashes(word); });
+      if (!own) all.emplace_back(word.substr(1), "");
+    } else if (!own) {
+      all.back().second += (all.back().second.empty() ? "" : " ") + word;
+    }
+  }
+  PetscFree(text);
+  return all;
+}
+
+} // namespace tribogel

@@ -1,0 +1,32 @@
+/// PETSc's option database <-> our own strict reading.
+#pragma once
+
+#include "scene/command_line.hpp"
+#include "scene/scene_input.hpp"
+
+#include <petscsys.h>
+
+namespace tribogel
+{
+
+/// Checks files and environment before PETSc reads them. The first process reads; throws UserError on all. Collective
+/// on MPI_COMM_WORLD, needs no PETSc.
+void check_sources(const CommandLine &line);
+
+/// All our options as the database has them, whatever file or line they came from. Throws UserError for a name that is
+/// not PETSc's to judge: one that begins like ours or looks like a misspelling of ours.
+PetscErrorCode ReadGivenOptions(GivenOptions &given);
+
+/// Options -> scene, output directory judged. Throws UserError. Collective on PETSC_COMM_WORLD.
+PetscErrorCode ReadScene(SceneInput &input);
+
+/// To be called when PETSc has read all it will ever read before time stepping, after a first solve. An option that
+/// nothing has read is refused (UserError) if it stands on the command line, and becomes a warning if it came from
+/// elsewhere. `petsc_help` is what PETSc said of its options meanwhile (TakePetscHelp); nearest names come from it.
+PetscErrorCode CheckUnusedOptions(const CommandLine &line, const std::string &petsc_help,
+                                  std::vector<std::string> &warnings);
+
+/// Our options as resolved, then PETSC_OPTIONS and the names and texts of all options of PETSc.
+std::vector<std::pair<std::string, std::string>> resolved_options(const SceneInput &input);
+
+} // namespace tribogel

@@ -1,0 +1,213 @@
+#include "scene/scene_input.hpp"
+
+#include "scene/material_input.hpp"
+#include "scene/option_reader.hpp"
+#include "scene/parse.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace tribogel
+{
+
+namespace
+{
+
+void read_geometry(const OptionReader &reader, Scene &scene)
+{
+  scene.top.radius = reader.real("-top_radius");
+  scene.top.height = reader.real("-top_height");
+  scene.bottom.radius = reader.real("-bottom_radius");
+  scene.bottom.height = reader.real("-bottom_height");
+  scene.initial_gap = reader.real("-initial_gap");
+  if (scene.has_top && scene.top.radius > scene.bottom.radius) {
+    const Option &option = OptionReader::declared("-top_radius");
+    refuse("-top_radius", reader.text(option),
+           "allowed: " + option.allowed() + ", here -bottom_radius = " + to_text(scene.bottom.radius));
+  }
+}
+
+void read_friction(const OptionReader &reader, SceneInput &input)
+{
+  const Option &coefficients = OptionReader::declared("-friction_coefficients");
+  const Option &exponents = OptionReader::declared("-friction_exponents");
+  const bool polynomial = reader.choice("-friction_law") == "polynomial";
+  reader.expect_equal_lengths(exponents, coefficients);
+  const std::vector<double> b = reader.reals(coefficients), m = reader.reals(exponents);
+  double at_rest = 0;
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    if (!PolynomialFriction<double>::admissible(m[i]))
+      refuse(exponents.name, reader.text(exponents), "allowed: " + exponents.allowed());
+    if (m[i] == 0) at_rest += b[i];
+  }
+  if (at_rest < 0)
+    refuse(coefficients.name, reader.text(coefficients),
+           "the coefficient at rest is " + to_text(at_rest) + "; allowed: the terms with exponent 0 add up to >= 0");
+  reader.real("-friction_pressure_exponent");
+  if (!input.scene.has_top) return;
+  if (polynomial) {
+    input.scene.friction = PolynomialFriction<double>{b, m};
+    if (*std::min_element(b.begin(), b.end()) < 0)
+      input.notes.push_back("-friction_coefficients = " + reader.text(coefficients) +
+                            ": friction that weakens with speed has unstable sliding states, and mu(v) may become"
+                            " negative at high speed");
+    return;
+  }
+  std::string idle;
+  for (const char *name : {"-friction_coefficients", "-friction_exponents", "-friction_pressure_exponent"})
+    if (reader.is_given(name)) idle += (idle.empty() ? "" : ", ") + std::string(name);
+  if (!idle.empty()) input.notes.push_back("without effect with -friction_law none: " + idle);
+}
+
+/// -schedule_approach; the default is the same value in each phase.
+std::vector<double> read_approach(const OptionReader &reader, std::size_t phases, std::string &text)
+{
+  const Option &option = OptionReader::declared("-schedule_approach");
+  text = reader.text(option);
+  if (!reader.is_given(option.name))
+    for (std::size_t k = 1; k < phases; ++k) text += "," + option.fallback;
+  else
+    reader.expect_equal_lengths(option, OptionReader::declared("-schedule_end_times"));
+  return reader.is_given(option.name) ? reader.reals(option) : std::vector<double>(phases, reader.reals(option)[0]);
+}
+
+/// What stands between the plates must keep a height > 0.
+void check_approach(const Scene &scene, const std::vector<double> &approach, const std::string &text, SceneInput &input)
+{
+  const double height = scene.bottom.height + (scene.has_top ? scene.top.height + scene.initial_gap : 0);
+  const double largest = *std::max_element(approach.begin(), approach.end());
+  if (!(largest < height))
+    refuse("-schedule_approach", text,
+           "allowed: each less than " + to_text(height) + " mm, " +
+               (scene.has_top ? "both heights and -initial_gap together" : "the height of the bottom specimen"));
+  if (scene.has_top && largest <= scene.initial_gap)
+    input.notes.push_back("-schedule_approach = " + text + ": the specimens are never pressed together (-initial_gap " +
+                          to_text(scene.initial_gap) + " mm)");
+}
+
+void read_schedule(const OptionReader &reader, SceneInput &input)
+{
+  const Option &end_times = OptionReader::declared("-schedule_end_times");
+  const std::vector<double> ends = reader.reals(end_times);
+  for (std::size_t k = 1; k < ends.size(); ++k)
+    if (!(ends[k] > ends[k - 1]))
+      refuse(end_times.name, reader.text(end_times),
+             to_text(ends[k]) + " after " + to_text(ends[k - 1]) + "; allowed: " + end_times.allowed());
+  std::string approach_text;
+  const std::vector<double> approach = read_approach(reader, ends.size(), approach_text);
+  check_approach(input.scene, approach, approach_text, input);
+  input.options.emplace_back("schedule_approach", approach_text);
+
+  reader.choice("-schedule_kind");
+  const Option &rates = OptionReader::declared("-schedule_rates"), &twists = OptionReader::declared("-schedule_twists");
+  const bool by_twists = reader.is_given(twists.name);
+  if (by_twists && reader.is_given(rates.name))
+    refuse(twists.name, reader.text(twists), "allowed: not together with -schedule_rates = " + reader.text(rates));
+  const Option &turning = by_twists ? twists : rates;
+  reader.expect_equal_lengths(turning, end_times);
+  const std::vector<double> values = reader.reals(turning);
+  input.scene.schedule =
+      by_twists ? schedule_from_twists(ends, approach, values) : schedule_from_rates(ends, approach, values);
+  input.options.emplace_back(turning.name.substr(1), reader.text(turning));
+}
+
+void read_discretisation(const OptionReader &reader, Scene &scene)
+{
+  scene.mesh.element_order = reader.integer("-element_order");
+  scene.mesh.elements_radial = reader.integer("-elements_radial");
+  scene.mesh.grading = reader.real("-mesh_grading");
+  reader.choice("-contact_integration");
+  reader.choice("-maxwell_integrator");
+  const double elements = estimated_elements(scene);
+  if (elements > most_elements) {
+    char rounded[32];
+    std::snprintf(rounded, sizeof rounded, "%.3g", elements);
+    refuse("-elements_radial", std::to_string(scene.mesh.elements_radial),
+           std::string("with these radii and heights a mesh of ") + rounded + " elements; allowed: at most " +
+               to_text(most_elements) + " elements (matrix positions are 32-bit numbers)");
+  }
+}
+
+void warn_about_relaxation(const Scene &scene, SceneInput &input)
+{
+  double shortest = scene.schedule.front().duration();
+  for (const Phase &phase : scene.schedule) shortest = std::min(shortest, phase.duration());
+  const auto check = [&](const Specimen &specimen, const std::string &body) {
+    for (std::size_t k = 0; k < specimen.material.branches.size(); ++k) {
+      const MaxwellBranch<double> &branch = specimen.material.branches[k];
+      const double time = shape_relaxation_time(branch);
+      if (time < 1e-6 * shortest)
+        input.warnings.push_back(branch_names(body, static_cast<int>(k) + 1).viscosities + " = " +
+                                 to_text(branch.deviatoric_viscosity) + "," + to_text(branch.volumetric_viscosity) +
+                                 ": relaxation time " + to_text(time) + " s, while the shortest phase takes " +
+                                 to_text(shortest) + " s; the branch will not be seen. Is it in MPa s?");
+    }
+  };
+  if (scene.has_top) check(scene.top, "top");
+  check(scene.bottom, "bottom");
+}
+
+/// One gel alone: whatever concerns the other one and the contact does nothing.
+void note_idle_without_top(const GivenOptions &given, SceneInput &input)
+{
+  std::string idle;
+  for (const auto &[name, text] : given)
+    if (name.starts_with("-top_") || name.starts_with("-friction_") || name == "-initial_gap" ||
+        name == "-contact_integration")
+      idle += (idle.empty() ? "" : ", ") + name;
+  if (!idle.empty()) input.notes.push_back("without effect with -specimens bottom: " + idle);
+}
+
+/// Whatever a reader above has not already written down as resolved.
+void resolve_the_rest(const OptionReader &reader, SceneInput &input)
+{
+  const auto resolved = [&](const std::string &name) {
+    return std::any_of(input.options.begin(), input.options.end(), [&](const auto &o) { return o.first == name; });
+  };
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const OptionGroup &group : option_table())
+    for (const Option &option : group.options) {
+      const bool turning = option.name == "-schedule_rates" || option.name == "-schedule_twists"; // one of the two
+      if (turning || resolved(option.name.substr(1))) continue;
+      const std::string text = reader.text(option);
+      all.emplace_back(option.name.substr(1), option.kind == OptionKind::flag && text.empty() ? "true" : text);
+    }
+  input.options.insert(input.options.begin(), all.begin(), all.end());
+}
+
+} // namespace
+
+double estimated_elements(const Scene &scene)
+{
+  const double radius = scene.has_top ? scene.top.radius : scene.bottom.radius;
+  const double edge = radius / scene.mesh.elements_radial;
+  const auto count = [&](const Specimen &s) { return std::ceil(s.radius / edge) * std::ceil(s.height / edge); };
+  return count(scene.bottom) + (scene.has_top ? count(scene.top) : 0);
+}
+
+SceneInput scene_from_options(const GivenOptions &given)
+{
+  const OptionReader reader(given);
+  SceneInput input;
+  Scene &scene = input.scene;
+  reader.choice("-model");
+  reader.choice("-task");
+  scene.has_top = reader.choice("-specimens") == "both";
+  read_geometry(reader, scene);
+  SceneInput unused; // a top specimen that is not there raises no warnings
+  scene.top.material = read_material(reader, "top", scene.has_top ? input : unused);
+  input.options.insert(input.options.end(), unused.options.begin(), unused.options.end());
+  scene.bottom.material = read_material(reader, "bottom", input);
+  read_friction(reader, input);
+  read_schedule(reader, input);
+  read_discretisation(reader, scene);
+  scene.output.directory = reader.path("-output_directory");
+  scene.output.overwrite = reader.flag("-overwrite");
+  warn_about_relaxation(scene, input);
+  if (!scene.has_top) note_idle_without_top(given, input);
+  resolve_the_rest(reader, input);
+  return input;
+}
+
+} // namespace tribogel

@@ -1,0 +1,36 @@
+/// Option texts -> Scene, with all checks. Pure: no PETSc, no MPI, no files; what PETSc read is handed in as text.
+#pragma once
+
+#include "scene/user_error.hpp"
+#include "tribogel/scene/scene.hpp"
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tribogel
+{
+
+/// What the user gave: option name with its dash -> text, empty where the value is missing.
+using GivenOptions = std::map<std::string, std::string>;
+
+struct SceneInput {
+  Scene scene;
+  std::vector<std::pair<std::string, std::string>> options; ///< every option as resolved: name without the dash, text
+  std::vector<std::string> warnings;                        ///< runs, but is hardly what was meant
+  std::vector<std::string> notes;                           ///< worth knowing, e.g. an option without effect here
+
+  const std::vector<std::pair<std::string, std::string>> &resolved_options() const { return options; }
+};
+
+/// Throws UserError at the first option that is wrong.
+SceneInput scene_from_options(const GivenOptions &given);
+
+/// Quadrilaterals that a uniform mesh of this scene has at -elements_radial [1]. Grading does not reduce it below.
+double estimated_elements(const Scene &scene);
+
+/// More elements than this are refused: matrix positions are 32-bit numbers.
+inline constexpr double most_elements = 2e6;
+
+} // namespace tribogel

@@ -1,0 +1,140 @@
+/// Every PETSc callback of the program, in the order in which a step calls them.
+#include "solve/problem.hpp"
+
+namespace tribogel
+{
+
+namespace
+{
+
+/// Prescribed values and rates, before each evaluation.
+PetscErrorCode Boundary(DM, PetscReal time, Vec U, Vec Udot, void *context)
+{
+  const auto &problem = *static_cast<Problem *>(context);
+  PetscScalar *u, *rate = nullptr;
+  PetscFunctionBeginUser;
+  PetscCall(VecGetArray(U, &u));
+  if (Udot) PetscCall(VecGetArray(Udot, &rate));
+  problem.SetBoundary(time, u, rate);
+  if (Udot) PetscCall(VecRestoreArray(Udot, &rate));
+  PetscCall(VecRestoreArray(U, &u));
+  PetscFunctionReturn(0);
+}
+
+/// F(t, U, Udot): internal minus external forces, contact conditions.
+PetscErrorCode Residual(DM dm, PetscReal time, Vec U, Vec Udot, Vec F, void *context)
+{
+  auto &problem = *static_cast<Problem *>(context);
+  const PetscScalar *u, *rate;
+  PetscScalar *f, *sizes;
+  Vec local_sizes;
+  PetscFunctionBeginUser;
+  PetscCall(DMGetLocalVector(dm, &local_sizes));
+  PetscCall(VecZeroEntries(local_sizes));
+  PetscCall(VecGetArrayRead(U, &u));
+  PetscCall(VecGetArrayRead(Udot, &rate));
+  PetscCall(VecGetArray(F, &f));
+  PetscCall(VecGetArray(local_sizes, &sizes));
+  PetscCall(problem.AddResidual(time, u, rate, f, sizes));
+  PetscCall(VecRestoreArray(local_sizes, &sizes));
+  PetscCall(VecRestoreArray(F, &f));
+  PetscCall(VecRestoreArrayRead(Udot, &rate));
+  PetscCall(VecRestoreArrayRead(U, &u));
+  PetscCall(VecZeroEntries(problem.magnitude));
+  PetscCall(DMLocalToGlobal(dm, local_sizes, ADD_VALUES, problem.magnitude));
+  PetscCall(DMRestoreLocalVector(dm, &local_sizes));
+  if (problem.bulk_failure || !problem.contact_failure.empty()) { // on one rank is enough: its norm becomes infinite
+    SNES snes;
+    PetscCall(TSGetSNES(problem.ts, &snes));
+    PetscCall(SNESSetFunctionDomainError(snes));
+  }
+  PetscFunctionReturn(0);
+}
+
+/// dF/dU + shift dF/dUdot.
+PetscErrorCode Jacobian(DM, PetscReal time, Vec U, Vec Udot, PetscReal shift, Mat A, Mat P, void *context)
+{
+  auto &problem = *static_cast<Problem *>(context);
+  const PetscScalar *u, *rate;
+  PetscFunctionBeginUser;
+  PetscCall(MatZeroEntries(P));
+  PetscCall(VecGetArrayRead(U, &u));
+  PetscCall(VecGetArrayRead(Udot, &rate));
+  PetscCall(problem.AddJacobian(time, u, rate, shift, P));
+  PetscCall(VecRestoreArrayRead(Udot, &rate));
+  PetscCall(VecRestoreArrayRead(U, &u));
+  PetscCall(MatAssemblyBegin(P, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(P, MAT_FINAL_ASSEMBLY));
+  if (A != P) {
+    PetscCall(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
+    PetscCall(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
+  }
+  PetscFunctionReturn(0);
+}
+
+/// Start of a Newton iteration: the surfaces may have slid out of the matrix's pattern.
+PetscErrorCode StartIteration(SNES snes, PetscInt)
+{
+  Problem *problem;
+  PetscFunctionBeginUser;
+  PetscCall(SNESGetApplicationContext(snes, &problem));
+  PetscCall(problem->UpdatePattern(snes));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Converged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal norm, SNESConvergedReason *reason,
+                         void *context)
+{
+  auto &problem = *static_cast<Problem *>(context);
+  PetscInt most;
+  Vec F;
+  bool converged;
+  PetscFunctionBeginUser;
+  *reason = SNES_CONVERGED_ITERATING;
+  if (PetscIsInfOrNanReal(norm)) {
+    *reason = SNES_DIVERGED_FNORM_NAN;
+    PetscFunctionReturn(0);
+  }
+  PetscCall(SNESGetFunction(snes, &F, nullptr, nullptr));
+  PetscCall(problem.JudgeResidual(F, converged));
+  PetscCall(SNESGetTolerances(snes, nullptr, nullptr, nullptr, &most, nullptr));
+  if (converged)
+    *reason = SNES_CONVERGED_FNORM_RELATIVE;
+  else if (iteration >= most)
+    *reason = SNES_DIVERGED_MAX_IT;
+  PetscFunctionReturn(0);
+}
+
+/// After a step that TS accepted. TS also calls this once for a step that failed for good: then time stands still.
+PetscErrorCode PostStep(TS ts)
+{
+  Problem *problem;
+  PetscReal time;
+  Vec U;
+  PetscFunctionBeginUser;
+  PetscCall(TSGetApplicationContext(ts, &problem));
+  PetscCall(TSGetTime(ts, &time));
+  PetscCall(TSGetSolution(ts, &U));
+  if (time > problem->state.time) PetscCall(problem->AcceptStep(time, U));
+  PetscFunctionReturn(0);
+}
+
+} // namespace
+
+PetscErrorCode RegisterCallbacks(Problem &problem)
+{
+  SNES snes;
+  PetscFunctionBeginUser;
+  PetscCall(DMTSSetBoundaryLocal(problem.mesh.dm, Boundary, &problem));
+  PetscCall(DMTSSetIFunctionLocal(problem.mesh.dm, Residual, &problem));
+  PetscCall(DMTSSetIJacobianLocal(problem.mesh.dm, Jacobian, &problem));
+  PetscCall(TSSetApplicationContext(problem.ts, &problem));
+  PetscCall(TSSetPostStep(problem.ts, PostStep));
+  PetscCall(TSGetSNES(problem.ts, &snes));
+  PetscCall(SNESSetApplicationContext(snes, &problem));
+  PetscCall(SNESSetUpdate(snes, StartIteration));
+  PetscCall(SNESSetConvergenceTest(snes, Converged, &problem, nullptr));
+  PetscFunctionReturn(0);
+}
+
+} // namespace tribogel

@@ -1,0 +1,61 @@
+/// When is a residual small? Each group of rows is held against the forces that meet in it, and against the round-off
+/// that these forces carry: no dimension enters, and a body without load (no force to be relative to) converges too.
+#include "solve/problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tribogel
+{
+
+namespace
+{
+
+/// Round-off of a row that sums the products of one cell's points: a few tens of operations.
+constexpr double round_off_allowance = 16;
+
+} // namespace
+
+PetscErrorCode Problem::JudgeResidual(Vec F, bool &converged)
+{
+  const PetscScalar *f, *sizes, *floors;
+  PetscReal tolerance;
+  SNES snes;
+  double sums[3 * residual_groups] = {};
+  PetscFunctionBeginUser;
+  PetscCall(VecGetArrayRead(F, &f));
+  PetscCall(VecGetArrayRead(magnitude, &sizes));
+  PetscCall(VecGetArrayRead(round_off, &floors));
+  for (std::size_t k = 0; k < group.size(); ++k) {
+    const int g = group[k];
+    sums[3 * g] += f[k] * f[k];
+    sums[3 * g + 1] += sizes[k] * sizes[k];
+    sums[3 * g + 2] += floors[k] * floors[k];
+  }
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(F));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3 * residual_groups, MPI_DOUBLE, MPI_SUM, comm));
+  PetscCall(TSGetSNES(ts, &snes));
+  PetscCall(SNESGetTolerances(snes, nullptr, &tolerance, nullptr, nullptr, nullptr));
+  double all = 0;
+  for (int g = 0; g < residual_groups; ++g) all += sums[3 * g + 1];
+  worst = {};
+  double limits[residual_groups];
+  for (int g = 0; g < residual_groups; ++g) {
+    const double floor = std::sqrt(sums[3 * g + 2]) + std::numeric_limits<double>::epsilon() * std::sqrt(all);
+    limits[g] = tolerance * std::sqrt(sums[3 * g + 1]) + round_off_allowance * floor;
+    const double norm = std::sqrt(sums[3 * g]);
+    const double ratio = norm == 0 ? 0 : norm / limits[g];
+    if (ratio > worst.ratio) {
+      worst.ratio = ratio;
+      worst.group = g;
+    }
+  }
+  converged = worst.ratio <= 1;
+  PetscCall(VecRestoreArrayRead(round_off, &floors));
+  PetscCall(VecRestoreArrayRead(magnitude, &sizes));
+  PetscCall(VecRestoreArrayRead(F, &f));
+  PetscFunctionReturn(0);
+}
+
+} // namespace tribogel

@@ -1,0 +1,26 @@
+/// What watches a run: called on all ranks after each accepted step, never after a rejected one. An observer may not
+/// change the solution, the schedule or the solver.
+#pragma once
+
+#include <petscts.h>
+
+namespace tribogel
+{
+
+class Problem;
+
+/// How the accepted step was found.
+struct StepReport {
+  PetscInt newton_iterations = 0, linear_iterations = 0;
+  bool ends_phase = false;
+};
+
+class Observer
+{
+public:
+  virtual ~Observer() = default;
+  virtual PetscErrorCode Start(Problem &problem) = 0; ///< the initial state
+  virtual PetscErrorCode Step(Problem &problem, const StepReport &report) = 0;
+};
+
+} // namespace tribogel

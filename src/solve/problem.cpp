@@ -1,0 +1,201 @@
+#include "solve/problem.hpp"
+
+#include <algorithm>
+
+namespace tribogel
+{
+
+PetscErrorCode Problem::SetUp(MPI_Comm comm, const Scene &given)
+{
+  PetscFunctionBeginUser;
+  scene = given;
+  PetscCall(mesh.Build(comm, scene));
+  PetscCall(Bulk::Create(mesh, scene, bulk));
+  if (scene.has_top) {
+    contact = std::make_unique<Contact>();
+    PetscCall(contact->SetUp(comm, mesh, scene));
+  }
+  PetscCall(SetUpFields());
+  PetscCall(SetUpTs());
+  PetscCall(RegisterCallbacks(*this));
+  PetscCall(SetFromOptions());
+  PetscCall(BuildMatrix());
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Problem::SetFromOptions()
+{
+  PetscFunctionBeginUser;
+  PetscCall(TSSetFromOptions(ts));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Problem::SetUpFields()
+{
+  ISLocalToGlobalMapping mapping;
+  const PetscInt *to_global;
+  PetscInt first, last;
+  Vec local;
+  PetscScalar *values;
+  PetscFunctionBeginUser;
+  PetscCall(DMCreateGlobalVector(mesh.dm, state.U.put()));
+  PetscCall(VecDuplicate(state.U, state.Udot.put()));
+  PetscCall(VecDuplicate(state.U, before.put()));
+  PetscCall(VecDuplicate(state.U, magnitude.put()));
+  PetscCall(VecDuplicate(state.U, round_off.put()));
+  PetscCall(VecDuplicate(state.U, step_tolerance.put()));
+  for (Vec v : {static_cast<Vec>(state.U), static_cast<Vec>(state.Udot), static_cast<Vec>(before)})
+    PetscCall(VecZeroEntries(v));
+  state.history = bulk->InitialHistory();
+
+  PetscCall(DMGetLocalToGlobalMapping(mesh.dm, &mapping));
+  PetscCall(ISLocalToGlobalMappingGetIndices(mapping, &to_global));
+  PetscCall(VecGetOwnershipRange(state.U, &first, &last));
+  group.assign(last - first, 0);
+  for (const Node &node : mesh.nodes)
+    for (int i = 0; i < 3; ++i) {
+      const PetscInt u = to_global[node.displacement + i];
+      if (u >= first && u < last) group[u - first] = static_cast<char>(i);
+      const PetscInt lambda = node.traction < 0 ? -1 : to_global[node.traction + i];
+      if (lambda >= first && lambda < last) group[lambda - first] = static_cast<char>(3 + i);
+    }
+  PetscCall(ISLocalToGlobalMappingRestoreIndices(mapping, &to_global));
+
+  PetscCall(DMGetLocalVector(mesh.dm, &local));
+  PetscCall(VecZeroEntries(local));
+  PetscCall(VecGetArray(local, &values));
+  bulk->AddRoundOff(values);
+  if (contact) contact->AddRoundOff(values);
+  PetscCall(VecRestoreArray(local, &values));
+  PetscCall(VecZeroEntries(round_off));
+  PetscCall(DMLocalToGlobal(mesh.dm, local, ADD_VALUES, round_off));
+  PetscCall(DMRestoreLocalVector(mesh.dm, &local));
+  PetscFunctionReturn(0);
+}
+
+PlateFrames Problem::frames(double time) const
+{
+  const Phase &now = phase();
+  PlateFrames frames;
+  frames.top_travel = -now.approach(time);
+  frames.top_travel_rate = -now.approach_rate();
+  frames.top_rate = now.rate;
+  frames.bottom_rate = scene.bottom_plate_rate;
+  return frames;
+}
+
+/// Unknowns are measured from the body's own plate, so that a bonded node does not move; only a gel that spans both
+/// plates sees the top plate move.
+void Problem::SetBoundary(double time, double *U, double *Udot) const
+{
+  const Phase &now = phase();
+  for (const Node &node : mesh.nodes) {
+    const bool plate = node.on(Side::top_plate) || node.on(Side::bottom_plate);
+    const bool driven = node.on(Side::top_plate) && !scene.has_top;
+    const bool radial = node.on(Side::axis) || (plate && scene.plate_bond == PlateBond::glued);
+    const double L = scene.twist_length();
+    const double u[3] = {0, driven ? L * now.rotation(time) : 0, driven ? -now.approach(time) : 0};
+    const double rate[3] = {0, driven ? L * now.rate : 0, driven ? -now.approach_rate() : 0};
+    for (int i = radial ? 0 : 1; i < (plate ? 3 : (radial ? 1 : 0)); ++i) {
+      U[node.displacement + i] = u[i];
+      if (Udot) Udot[node.displacement + i] = rate[i];
+    }
+  }
+}
+
+PetscErrorCode Problem::LocalState(Vec U, Vec Udot) const
+{
+  PetscScalar *u, *rate;
+  PetscFunctionBeginUser;
+  PetscCall(VecZeroEntries(U));
+  PetscCall(VecZeroEntries(Udot));
+  PetscCall(DMGlobalToLocal(mesh.dm, state.U, INSERT_VALUES, U));
+  PetscCall(DMGlobalToLocal(mesh.dm, state.Udot, INSERT_VALUES, Udot));
+  PetscCall(VecGetArray(U, &u));
+  PetscCall(VecGetArray(Udot, &rate));
+  SetBoundary(state.time, u, rate);
+  PetscCall(VecRestoreArray(Udot, &rate));
+  PetscCall(VecRestoreArray(U, &u));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Problem::AddResidual(double time, const double *U, const double *Udot, double *F, double *sizes)
+{
+  PetscFunctionBeginUser;
+  bulk_failure = bulk->AddResidual(U, state.history, weights(time), F, sizes);
+  contact_failure.clear();
+  if (contact) PetscCall(contact->AddResidual(frames(time), U, Udot, F, sizes, contact_failure));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Problem::AddJacobian(double time, const double *U, const double *Udot, double shift, Mat A)
+{
+  PetscFunctionBeginUser;
+  PetscCall(bulk->AddJacobian(U, state.history, weights(time), A, bulk_failure));
+  if (contact) PetscCall(contact->AddJacobian(frames(time), U, Udot, shift, A, contact_failure));
+  PetscFunctionReturn(0);
+}
+
+/// The matrix has the pattern of the bulk and of all pairs of facets that may meet soon. PETSc 3.18 inserts a new
+/// nonzero by reallocating, so the pattern is complete before the first value.
+PetscErrorCode Problem::BuildMatrix()
+{
+  Mat counter, A;
+  PetscInt local;
+  ISLocalToGlobalMapping mapping;
+  PetscFunctionBeginUser;
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm)));
+  PetscCall(VecGetLocalSize(state.U, &local));
+  PetscCall(DMGetLocalToGlobalMapping(mesh.dm, &mapping));
+  PetscCall(MatCreate(comm, &counter));
+  PetscCall(MatCreate(comm, &A));
+  for (Mat m : {counter, A}) PetscCall(MatSetSizes(m, local, local, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetType(counter, MATPREALLOCATOR));
+  PetscCall(MatSetType(A, MATAIJ));
+  PetscCall(MatSetUp(counter));
+  for (Mat m : {counter, A}) PetscCall(MatSetLocalToGlobalMapping(m, mapping, mapping));
+  PetscCall(bulk->AddPattern(counter));
+  if (contact) PetscCall(contact->AddPattern(counter));
+  PetscCall(MatAssemblyBegin(counter, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(counter, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatPreallocatorPreallocate(counter, PETSC_TRUE, A));
+  PetscCall(MatDestroy(&counter));
+  PetscCall(MatSetOption(A, MAT_NEW_NONZERO_LOCATION_ERR, PETSC_TRUE));
+  *jacobian.put() = A;
+  PetscCall(TSSetIJacobian(ts, A, A, nullptr, nullptr)); // null: the DM's callback stays
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Problem::ProbeSolver()
+{
+  SNES snes;
+  KSP ksp;
+  Vec zero, x, U, Udot;
+  const PetscScalar *u, *rate;
+  PetscFunctionBeginUser;
+  PetscCall(TSGetSNES(ts, &snes));
+  PetscCall(SNESGetKSP(snes, &ksp));
+  PetscCall(DMGetLocalVector(mesh.dm, &U));
+  PetscCall(DMGetLocalVector(mesh.dm, &Udot));
+  PetscCall(LocalState(U, Udot));
+  PetscCall(VecGetArrayRead(U, &u));
+  PetscCall(VecGetArrayRead(Udot, &rate));
+  PetscCall(MatZeroEntries(jacobian));
+  PetscCall(AddJacobian(state.time, u, rate, 1 / phase().duration(), jacobian));
+  PetscCall(MatAssemblyBegin(jacobian, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(jacobian, MAT_FINAL_ASSEMBLY));
+  PetscCall(VecRestoreArrayRead(Udot, &rate));
+  PetscCall(VecRestoreArrayRead(U, &u));
+  PetscCall(DMRestoreLocalVector(mesh.dm, &Udot));
+  PetscCall(DMRestoreLocalVector(mesh.dm, &U));
+  PetscCall(VecDuplicate(state.U, &zero));
+  PetscCall(VecDuplicate(state.U, &x));
+  PetscCall(VecZeroEntries(zero));
+  PetscCall(KSPSetOperators(ksp, jacobian, jacobian));
+  PetscCall(KSPSolve(ksp, zero, x));
+  PetscCall(VecDestroy(&x));
+  PetscCall(VecDestroy(&zero));
+  PetscFunctionReturn(0);
+}
+
+} // namespace tribogel

@@ -1,0 +1,105 @@
+/// A scene made ready to be solved: mesh, bulk, contact, state, TS. Built from a Scene alone, without command line or
+/// globals, so that a program can hold several.
+#pragma once
+
+#include "bulk/bulk.hpp"
+#include "contact/contact.hpp"
+#include "mesh/mesh.hpp"
+#include "solve/observer.hpp"
+#include "solve/state.hpp"
+#include "tribogel/scene/scene.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tribogel
+{
+
+/// Residuals are judged by group: three displacement and three traction components, each against the sum of the
+/// absolute forces that meet in it.
+inline constexpr int residual_groups = 6;
+inline constexpr const char *group_names[residual_groups] = {"radial force",   "circumferential force",
+                                                             "axial force",    "radial contact condition",
+                                                             "circumferential contact condition",
+                                                             "axial contact condition"};
+
+struct SolveCounts {
+  PetscInt accepted_steps = 0, rejected_steps = 0, failed_solves = 0;
+  PetscInt newton_iterations = 0, linear_iterations = 0, pattern_rebuilds = 0;
+};
+
+/// Where Newton stopped: the largest residual relative to its tolerance.
+struct WorstResidual {
+  double ratio = 0; ///< group norm over its tolerance
+  int group = -1;
+  std::array<double, 2> X{}; ///< node of the group's largest entry, reference (R, Z) [mm]
+  int body = 0;
+};
+
+class Problem
+{
+public:
+  PetscErrorCode SetUp(MPI_Comm comm, const Scene &scene);
+
+  PetscErrorCode SetFromOptions(); ///< TS, SNES, KSP, PC
+
+  /// One linear solve with a zero right-hand side: makes PETSc's inner solvers read their options.
+  PetscErrorCode ProbeSolver();
+
+  /// Run the schedule. `completed` is false when a step fails at the smallest size; `why` then says where and why.
+  PetscErrorCode Run(const std::vector<Observer *> &observers, bool &completed, std::string &why);
+
+  /// Solution and rate in local vectors, prescribed values included. Collective.
+  PetscErrorCode LocalState(Vec U, Vec Udot) const;
+
+  /// Internal minus external forces in the local arrays; on failure sets `failure` on the ranks concerned.
+  PetscErrorCode AddResidual(double time, const double *U, const double *Udot, double *F, double *magnitude);
+  PetscErrorCode AddJacobian(double time, const double *U, const double *Udot, double shift, Mat A);
+
+  /// Prescribed displacements and rates at `time` (Udot may be null) in local arrays.
+  void SetBoundary(double time, double *U, double *Udot) const;
+
+  const Phase &phase() const { return scene.schedule[state.phase]; }
+  PlateFrames frames(double time) const;
+  StepWeights weights(double time) const { return {time - state.time, 0}; } ///< backward Euler
+
+  Scene scene;
+  Mesh mesh;
+  std::unique_ptr<Bulk> bulk;
+  std::unique_ptr<Contact> contact; ///< null without a top specimen
+  State state;
+  SolveCounts counts;
+  TsHandle ts;
+  MatHandle jacobian;
+
+  // What the last evaluation left for the convergence test and for messages.
+  VecHandle magnitude, round_off; ///< global: sum of absolute forces; floor of their round-off
+  std::vector<char> group;        ///< of each owned unknown
+  BulkFailure bulk_failure;
+  std::string contact_failure;
+  WorstResidual worst;
+
+  PetscErrorCode BuildMatrix();
+  PetscErrorCode UpdatePattern(SNES snes);
+  PetscErrorCode AcceptStep(PetscReal time, Vec U);
+  PetscErrorCode JudgeResidual(Vec F, bool &converged);
+  PetscErrorCode SetStepTolerances();
+
+private:
+  PetscErrorCode SetUpFields();
+  PetscErrorCode SetUpTs();
+  PetscErrorCode RunPhase(int k);
+  std::string Explain(TSConvergedReason reason) const;
+
+  std::vector<Observer *> watching;
+  VecHandle before;          ///< U at the start of the step
+  VecHandle step_tolerance;
+  std::array<double, residual_groups> largest{}; ///< |U| per group so far
+  friend PetscErrorCode PreStep(TS);
+};
+
+/// Registers the PETSc callbacks on the problem's DM, TS and SNES (callbacks.cpp).
+PetscErrorCode RegisterCallbacks(Problem &problem);
+
+} // namespace tribogel

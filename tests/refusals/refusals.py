@@ -1,0 +1,191 @@
+#!/usr/bin/python3
+"""Bad input is refused: exit status 2, one line on stderr that names the option, the value and what is allowed, and
+nothing is written. What is merely odd runs, with a warning or a note.
+
+  tests/refusals/refusals.py TRIBOGEL [--mpirun MPIRUN]
+
+With --mpirun some refusals are repeated on two processes. Each run has a directory of its own. The page
+options/README.md must be what -help markdown prints.
+"""
+import argparse
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+START = "tribogel: error: "
+ALLOWED = "allowed: "
+
+# A scene that is over in a moment, for what must run.
+SMALL = ["-specimens", "bottom", "-element_order", "1", "-elements_radial", "2", "-schedule_end_times", "1",
+         "-schedule_approach", "0.05", "-schedule_rates", "0"]
+
+# name, words on the command line, what the line must contain besides "allowed: "
+REFUSALS = [
+    ("misspelt option", ["-fricton_coefficients", "0,1e-3"], ["-fricton_coefficients = 0,1e-3",
+                                                              "nearest is -friction_coefficients"]),
+    ("two dashes", ["--top_radius", "9"], ["--top_radius = 9", "nearest is -top_radius"]),
+    ("option that is not built", ["-plate_contact", "true"], ["-plate_contact = true", "unknown"]),
+    ("restart, not built", ["-restart", "old"], ["-restart = old", "unknown"]),
+    ("misspelt solver option", ["-ksp_typ", "gmres"], ["-ksp_typ = gmres", "nearest is -ksp_type"]),
+    ("unknown solver", ["-ksp_type", "gmrs"], ["-ksp_type = gmrs"]),
+    ("solver number that is none", ["-snes_rtol", "small"], ["-snes_rtol = small"]),
+    ("negative modulus", ["-top_ogden_moduli", "-0.75,0.45,0.18"], ["-top_ogden_moduli = -0.75,0.45,0.18"]),
+    ("negative bulk modulus", ["-bottom_bulk_modulus", "-200"], ["-bottom_bulk_modulus = -200"]),
+    ("unequal lengths", ["-friction_coefficients", "1,2,3"], ["-friction_coefficients = 1,2,3 has 3",
+                                                              "-friction_exponents = 0,1 (default) has 2"]),
+    ("blanks for commas", ["-friction_coefficients", "0", "8e-4"], ["-friction_coefficients = 0", "8e-4"]),
+    ("blanks in one word", ["-friction_coefficients", "0 8e-4"], ["-friction_coefficients = 0 8e-4", "comma"]),
+    ("empty place in a list", ["-friction_coefficients", "0,,1"], ["-friction_coefficients = 0,,1"]),
+    ("comma at the end", ["-friction_coefficients", "0,1,"], ["-friction_coefficients = 0,1,"]),
+    ("missing value", ["-top_radius", "-top_height", "4"], ["-top_radius", "value missing"]),
+    ("missing value at the end", ["-schedule_approach"], ["-schedule_approach", "value missing"]),
+    ("NaN", ["-top_height", "nan"], ["-top_height = nan", "finite"]),
+    ("negative NaN", ["-initial_gap", "-nan"], ["-initial_gap = -nan"]),
+    ("infinity", ["-bottom_radius", "inf"], ["-bottom_radius = inf"]),
+    ("hexadecimal", ["-bottom_radius", "0x10"], ["-bottom_radius = 0x10"]),
+    ("overflow", ["-top_bulk_modulus", "1e999"], ["-top_bulk_modulus = 1e999"]),
+    ("integer overflow", ["-elements_radial", "99999999999999999999"], ["-elements_radial = 99999999999999999999"]),
+    ("no whole number", ["-element_order", "1.5"], ["-element_order = 1.5"]),
+    ("end times not increasing", ["-schedule_end_times", "27,3600,3600,5400,6300"],
+     ["-schedule_end_times = 27,3600,3600,5400,6300", "increasing"]),
+    ("rates and twists", ["-schedule_rates", "0,0,0,0,1", "-schedule_twists", "0,0,0,0,1"],
+     ["-schedule_twists = 0,0,0,0,1", "-schedule_rates"]),
+    ("missing options file", ["-options_file", "no/such.opts"], ["-options_file = no/such.opts"]),
+    ("options file that is a directory", ["-options_file", "."], ["-options_file = .", "directory"]),
+    ("options file not named", ["-options_file"], ["-options_file", "value missing"]),
+    ("blanks for commas in a file", ["-options_file", "blanks.opts"],
+     ["blanks.opts line 2", "-friction_coefficients = 0", "8e-4"]),
+    ("word without a dash in a file", ["-options_file", "bare.opts"], ["bare.opts line 1", "top_radius"]),
+    ("wrong value in a file", ["-options_file", "zero.opts"], ["-top_height = 0"]),
+    ("output below a regular file", ["-output_directory", "a_file/run"], ["-output_directory = a_file/run",
+                                                                          "not a directory"]),
+    ("output onto a regular file", ["-output_directory", "a_file"], ["-output_directory = a_file"]),
+    ("existing run", ["-output_directory", "a_run"], ["-output_directory = a_run", "-overwrite"]),
+    ("1e11 elements", ["-elements_radial", "330000"], ["-elements_radial = 330000", "e+11 elements"]),
+    ("stray word", ["fig06.opts"], ["fig06.opts", "stray"]),
+    ("word after a flag", ["-overwrite", "a_run"], ["-overwrite = a_run"]),
+    ("zero height", ["-top_height", "0"], ["-top_height = 0", "> 0"]),
+    ("top wider than bottom", ["-top_radius", "13"], ["-top_radius = 13", "-bottom_radius"]),
+    ("more approach than height", ["-schedule_approach", "1,1,1,1,9"], ["-schedule_approach = 1,1,1,1,9", "8.4 mm"]),
+    ("model that is not built", ["-model", "solid"], ["-model = solid", "axisymmetric"]),
+    ("exponent between 0 and 1", ["-friction_exponents", "0,0.5"], ["-friction_exponents = 0,0.5"]),
+    ("pressure exponent", ["-friction_pressure_exponent", "0.8"], ["-friction_pressure_exponent = 0.8"]),
+    ("gap in the branches", ["-top_maxwell3_viscosities", "4,5"], ["-top_maxwell3_viscosities = 4,5"]),
+    ("incomplete branch", ["-top_maxwell2_viscosities", "4,5"], ["-top_maxwell2_ogden_moduli"]),
+    ("unknown kind of help", ["-help", "me"], ["-help = me", "petsc"]),
+]
+
+# These take different ways through the program; they are repeated on two processes.
+ON_TWO_PROCESSES = {"misspelt option", "misspelt solver option", "unknown solver", "blanks for commas", "NaN",
+                    "missing options file", "blanks for commas in a file", "output below a regular file", "existing run",
+                    "stray word"}
+
+# name, words, exit status 0 and this on stdout
+RUNS = [
+    ("K below G", ["-bottom_bulk_modulus", "0.9"] + SMALL, ["warning: -bottom_bulk_modulus = 0.9"]),
+    ("relaxation far below the phase", ["-bottom_maxwell_viscosities", "1e-7,1e-5"] + SMALL,
+     ["warning: -bottom_maxwell_viscosities", "relaxation time"]),
+    ("friction without a second gel", ["-friction_coefficients", "0,2e-4"] + SMALL,
+     ["note: without effect with -specimens bottom: -friction_coefficients"]),
+    ("branch of a hyperelastic gel", ["-bottom_material", "hyperelastic", "-bottom_maxwell_bulk_modulus", "90"] + SMALL,
+     ["note: without effect with -bottom_material hyperelastic: -bottom_maxwell_bulk_modulus"]),
+    ("existing run, to be replaced", ["-output_directory", "a_run", "-overwrite"] + SMALL, ["a_run"]),
+    ("unused solver option in a file", ["-options_file", "unused.opts"] + SMALL, ["warning: -pc_hypre_type"]),
+    ("help", ["-help"], ["-friction_coefficients", "default: 0,8e-4", "MPa s"]),
+    ("version", ["-version"], ["tribogel "]),
+]
+
+
+def prepare(directory):
+    """What the cases expect to find."""
+    (directory / "a_file").write_text("mine\n")
+    (directory / "a_run").mkdir()
+    (directory / "a_run" / "history.csv").write_text("an older run\n")
+    (directory / "a_run" / "remarks.txt").write_text("mine\n")
+    (directory / "blanks.opts").write_text("# the list below has a blank\n-friction_coefficients 0 8e-4\n")
+    (directory / "bare.opts").write_text("top_radius 9\n")
+    (directory / "zero.opts").write_text("-top_height 0 # mm\n")
+    (directory / "unused.opts").write_text("-pc_hypre_type boomeramg\n")
+
+
+def contents(directory):
+    """Names and contents of all that is there."""
+    return {str(path.relative_to(directory)): path.read_bytes() if path.is_file() else None
+            for path in directory.rglob("*")}
+
+
+def run(command, directory):
+    environment = {name: value for name, value in os.environ.items() if name != "PETSC_OPTIONS"}
+    environment["HOME"] = str(directory)  # no .petscrc of the user
+    return subprocess.run(command, cwd=directory, env=environment, capture_output=True, text=True, timeout=120,
+                          check=False)
+
+
+def judge_refusal(command, expected):
+    """What is wrong with the refusal, as a list of lines."""
+    with tempfile.TemporaryDirectory() as name:
+        directory = pathlib.Path(name)
+        prepare(directory)
+        before = contents(directory)
+        done = run(command, directory)
+        wrong = []
+        if done.returncode != 2:
+            wrong.append(f"exit status {done.returncode}, not 2")
+        lines = done.stderr.splitlines()
+        if len(lines) != 1 or not lines[0].startswith(START):
+            wrong.append(f"stderr is not one line that begins with '{START}': {done.stderr!r}")
+        wrong += [f"'{part}' is not in {done.stderr!r}" for part in [ALLOWED] + expected if part not in done.stderr]
+        if contents(directory) != before:
+            wrong.append("files were written, changed or removed")
+        return wrong
+
+
+def judge_run(command, expected):
+    with tempfile.TemporaryDirectory() as name:
+        directory = pathlib.Path(name)
+        prepare(directory)
+        done = run(command, directory)
+        wrong = [f"exit status {done.returncode}, not 0: {done.stderr}"] if done.returncode != 0 else []
+        wrong += [f"'{part}' is not on stdout" for part in expected if part not in done.stdout]
+        if (directory / "a_run" / "remarks.txt").read_text() != "mine\n":
+            wrong.append("a file that is not ours was changed")
+        return wrong
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("tribogel", type=lambda path: str(pathlib.Path(path).resolve()))
+    parser.add_argument("--mpirun", help="launcher for two processes")
+    arguments = parser.parse_args()
+    # -q: without the launcher's own remark that a process has ended with a status other than 0
+    commands = [("", [arguments.tribogel])]
+    if arguments.mpirun:
+        commands.append((" on two processes", [arguments.mpirun, "-q", "-n", "2", arguments.tribogel]))
+
+    failures = cases = 0
+    for where, command in commands:
+        for name, words, expected in REFUSALS:
+            if where and name not in ON_TWO_PROCESSES:
+                continue
+            cases += 1
+            for line in judge_refusal(command + words, expected):
+                failures += 1
+                print(f"FAILED {name}{where}: {line}")
+    for name, words, expected in RUNS:
+        cases += 1
+        for line in judge_run(commands[0][1] + words, expected):
+            failures += 1
+            print(f"FAILED {name}: {line}")
+    cases += 1
+    page = pathlib.Path(__file__).resolve().parents[2] / "options" / "README.md"
+    if run([arguments.tribogel, "-help", "markdown"], page.parent).stdout != page.read_text():
+        failures += 1
+        print(f"FAILED page of options: {page} is not what '-help markdown' prints")
+    print(f"{cases} cases, {failures} failures")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
