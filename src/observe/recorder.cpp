@@ -43,17 +43,18 @@ template <class... Cells> std::string comma_separated(const Cells &...cells)
   return line;
 }
 
-/// How far the bottom surface has gone down at reference radius R, between its nodes.
-double displacement_at(const std::vector<ProfileRow> &profile, double R)
+/// How far the bottom surface has gone down at the current radius r, between its nodes.
+double displacement_at(const std::vector<ProfileRow> &profile, double r)
 {
   const ProfileRow *before = nullptr;
   for (const ProfileRow &row : profile) {
     if (row.surface != std::string("bottom")) continue;
-    if (before && row.reference_r >= R) {
-      const double s = (R - before->reference_r) / (row.reference_r - before->reference_r);
-      return (1 - s) * (before->reference_z - before->z) + s * (row.reference_z - row.z);
+    const double down = row.reference_z - row.z;
+    if (row.r >= r) {
+      if (!before) return down;
+      const double s = (r - before->r) / (row.r - before->r);
+      return (1 - s) * (before->reference_z - before->z) + s * down;
     }
-    if (row.reference_r >= R) return row.reference_z - row.z;
     before = &row;
   }
   return undefined;
@@ -102,9 +103,9 @@ PetscErrorCode Recorder::Record(Problem &problem, const StepReport &report)
   write_row(row);
   if (report.ends_phase) {
     last_profile = std::move(surfaces);
-    const double rim = problem.scene.top.radius;
     phases.push_back({row.phase, row.time, row.approach, row.rotation, row.rate, row.measurement,
-                      displacement_at(last_profile, 0), displacement_at(last_profile, rim)});
+                      displacement_at(last_profile, 0),
+                      displacement_at(last_profile, row.measurement.contact_radius)});
     write_profile(row.time, row.phase);
   }
   if (on_row) on_row(row);

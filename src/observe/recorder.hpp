@@ -15,7 +15,7 @@ struct PhaseEnd {
   int phase; ///< counted from 1
   double time, approach, rotation, rate;
   Measurement measurement;
-  double centre_displacement, rim_displacement; ///< of the bottom surface under the top gel's centre and rim, down [mm]
+  double centre_displacement, rim_displacement; ///< of the bottom surface, down, at the axis and at the contact radius [mm]
 };
 
 /// One accepted step as the files and the console show it.

@@ -93,14 +93,17 @@ PetscErrorCode Problem::SetStepTolerances()
     if (n > 0) largest[g] = std::max(largest[g], std::sqrt(sums[g] / n));
     count += n;
   }
-  // A component that is only round-off (the twist before any rotation) is not tracked.
+  // Radial and axial components share a scale: the radial traction of a nearly flat contact is of second order, and
+  // nobody needs it to a thousandth of itself. Turning is separate: a torque is small beside a force and matters.
+  // What is only round-off (the twist before any rotation) is not tracked.
   constexpr double negligible = 1e-8;
   double scale[residual_groups];
   for (int g = 0; g < residual_groups; ++g) {
     const int field = g / 3 * 3;
-    const double field_size = std::max({largest[field], largest[field + 1], largest[field + 2]});
-    const double n = sums[residual_groups + g];
-    scale[g] = field_size > 0 ? std::max(largest[g], negligible * field_size) * std::sqrt(n / count) : PETSC_MAX_REAL;
+    const double in_plane = std::max(largest[field], largest[field + 2]), turning = largest[field + 1];
+    const double size = g == field + 1 ? std::max(turning, negligible * in_plane)
+                                       : std::max(in_plane, negligible * turning);
+    scale[g] = size > 0 ? size * std::sqrt(sums[residual_groups + g] / count) : PETSC_MAX_REAL;
   }
   PetscCall(TSGetTolerances(ts, &fraction, nullptr, nullptr, nullptr));
   PetscCall(VecGetArray(step_tolerance, &tolerance));

@@ -20,7 +20,7 @@ struct MortarReport {
   MortarStatus status = MortarStatus::ok;
   int facet = -1; ///< slave facet of the first failure
   double overhang =
-      0; ///< reference length of slave beyond the master's edge [mm]; each facet is counted with its outer node
+      0; ///< reference length of slave beyond the master's edge [mm], of facets whose outer end is asked for
 };
 
 /// One slave node's contribution. Columns: (u_R, w, u_Z) of each slave node, of each master node, then the multiplier
@@ -29,8 +29,7 @@ struct MortarReport {
 struct NodeBlock {
   std::vector<int> slave_nodes, master_nodes;
   Eigen::VectorXd residual; ///< [N]
-  Eigen::MatrixXd
-      jacobian; ///< d residual / d (u, lambda) with d rate / d u = shift; only after update(derivatives = true)
+  Eigen::MatrixXd jacobian; ///< with d rate / d u = shift; only after update(derivatives = true)
   ContactStatus status;
 };
 
@@ -120,6 +119,7 @@ private:
     add_kinematics(geometry, a, now, y, node);
     return node;
   }
+  bool is_folded(int f) const;
   double current_area(int a) const;
   void without_multiplier(int a, NodeBlock &block) const;
 };
@@ -153,6 +153,7 @@ inline MortarReport AxisymmetricContact::update(const ContactState<double> &stat
       facets[f] = facet_mortar_derivative(geometry, f, candidates, x, n, y);
     } else
       facets[f] = facet_mortar<double>(geometry, f, candidates, x, n, y);
+    if (facets[f].status == MortarStatus::ok && is_folded(f)) facets[f].status = MortarStatus::folded;
     if (facets[f].status != MortarStatus::ok && report.status == MortarStatus::ok)
       report.status = facets[f].status, report.facet = f;
     const int outer = chain.facets[f][1];
@@ -206,6 +207,21 @@ inline void AxisymmetricContact::without_multiplier(int a, NodeBlock &block) con
   if (!with_derivatives) return;
   block.jacobian.setZero(6, 6);
   block.jacobian.bottomRightCorner<3, 3>().diagonal().setConstant(scale);
+}
+
+/// At one of its ends the facet and the next one (on the axis: its mirror image) enclose less than a right angle.
+inline bool AxisymmetricContact::is_folded(int f) const
+{
+  const auto ends = [&]<int nodes>() {
+    const auto points = geometry.slave_chain.on_facet<nodes>(f, x);
+    bool folded = false;
+    for (int end = 0; end < 2; ++end) {
+      const PlanePoint<double> own = normal_of(interpolate(facet_shape<nodes>(2.0 * end - 1).dN, points));
+      folded |= !(dot(own, n[geometry.slave_chain.facets[f][end]]) > std::numbers::sqrt2 / 2);
+    }
+    return folded;
+  };
+  return geometry.slave_chain.facet_nodes == 2 ? ends.operator()<2>() : ends.operator()<3>();
 }
 
 inline double AxisymmetricContact::current_area(int a) const

@@ -12,11 +12,10 @@ namespace tribogel
 {
 
 struct ContactParameters {
-  int order = 1;             ///< of the facets of both curves, 1 or 2
-  double twist_length = 1;   ///< L in w = L x twist [mm]
-  double softer_modulus = 1; ///< shear modulus of the softer body, for the scale c_N [MPa]
-  std::vector<bool>
-      carries_multiplier; ///< of each slave node: false where the displacement is prescribed; empty: all true
+  int order = 1;                             ///< of the facets of both curves, 1 or 2
+  double twist_length = 1;                   ///< L in w = L x twist [mm]
+  double softer_modulus = 1;                 ///< shear modulus of the softer body, for the scale c_N [MPa]
+  std::vector<bool> carries_multiplier = {}; ///< of each slave node, false where u is prescribed; empty: all true
 };
 
 struct ContactGeometry {
@@ -56,13 +55,14 @@ private:
     double outermost = 0;
     for (const auto &X : slave.X) outermost = std::max(outermost, X.r);
     std::vector<FacetMeasure<facet_nodes>> facets;
+    std::vector<double> length(nodes.size()); // mean over the node's facets
     for (int f = 0; f < slave_chain.facet_count(); ++f) {
       const auto facet = facet_measure<facet_nodes>(slave_chain.on_facet<facet_nodes>(f, slave.X));
       for (int b = 0; b < facet_nodes; ++b) {
         Node &node = nodes[slave_chain.facets[f][b]];
         node.D += facet.basis.D[b];
         node.extent += facet.extent[b];
-        node.c_N += facet.length / slave_chain.neighbours[slave_chain.facets[f][b]].count; // the length first
+        length[slave_chain.facets[f][b]] += facet.length / slave_chain.neighbours[slave_chain.facets[f][b]].count;
       }
       slave_length += facet.length;
       facets.push_back(facet);
@@ -72,7 +72,7 @@ private:
       node.on_axis = slave.X[a].r <= round_off * outermost;
       node.carries = parameters.carries_multiplier.empty() || parameters.carries_multiplier[a];
       if (parameters.order == 2 && node.on_axis) node.carries = false;
-      node.c_N = parameters.softer_modulus / node.c_N;
+      node.c_N = parameters.softer_modulus / length[a];
     }
     measures = std::move(facets);
   }

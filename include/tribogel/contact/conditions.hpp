@@ -1,31 +1,31 @@
 /// Contact and friction at one slave node as a semismooth equation, for both models.
 ///
-/// All vectors are given in one orthonormal frame: (r, theta, z) or (x, y, z). With the multiplier lambda (nominal
-/// traction on the slave), its pressure lambda_N = -lambda . n, the gap g >= 0 when open, the sliding velocity v =
-/// slave minus master:
+/// All vectors are given in one orthonormal frame, (r, theta, z) or (x, y, z). With the multiplier lambda (nominal
+/// traction on the slave), its pressure lambda_N = -lambda . n, the gap g >= 0 when open and the sliding velocity
+/// v = slave minus master:
 ///
 ///     p   = max(0, lambda_N - c_N g)
-///     C_N = lambda_N - p                                  open: lambda_N = 0; closed: g = 0
-///     C_T = lambda_c - b s / max(b, |s|)                  stick: v_T = 0;     slip: |lambda_c| = b against v_T
+///     C_N = lambda_N - p                     open: lambda_N = 0;   closed: g = 0
+///     C_T = lambda_c - b s / max(b, |s|)     stick: v_T = 0;       slip: lambda_c = -b v_T / |v_T|
 ///
-/// with tau_1 / v = the law's smooth part over the speed, lambda_c = lambda_T + (tau_1 / v) v_T the tangential traction
-/// without it, b = tau(0+, p), and s = lambda_c - (c_T + max(0, tau_1 / v)) v_T. The vector equation is C = -C_N n +
-/// C_T = 0; at an open node it is lambda = 0.
+/// with lambda_c = lambda_T + (tau_1 / v) v_T the tangential traction without the law's smooth part, b = tau(0+, p) and
+/// s = lambda_c - (c_T + max(0, tau_1 / v)) v_T. The vector equation is C = -C_N n + C_T = 0; at an open node it is
+/// lambda = 0.
 ///
-/// The second term in s keeps s pointing against v_T before the multiplier has followed: with s = lambda_c - c_T v_T
-/// Newton's method failed in 141 of 1350 random problems of one node on a spring (49 of 150 for mu = b0 + b2 v^2 with
-/// tau_1 / v = 100 c_T to 10^4 c_T), with the present one in none. Where tau_1 < 0 (weakening) it would hide the slip
-/// solution, so only its positive part is taken.
+/// The second term in s keeps s pointing against v_T while the multiplier has not yet followed. With
+/// s = lambda_c - c_T v_T Newton's method failed in 266 of the 3000 problems of test_conditions' node on a spring (none
+/// with the term) and took twice the iterations. Where tau_1 < 0 (weakening) the term would hide the slip solution, so
+/// only its positive part is taken.
 ///
-/// Choices where the equation has a kink, so that value and derivative are always those of one definite side:
+/// Choices where the equation has a kink; value and derivative are always those of one definite side:
 /// - lambda_N = c_N g is closed: two surfaces that just touch start with the row g = 0.
 /// - |s| = b > 0 sticks.
 /// - b = s = 0 (no law, no load, or the state at t = 0): C_T = lambda_c, whose row is never empty.
-/// - At v_T = 0 the smooth part is tau_1/v at v = 0 times v_T: differentiable, no direction needed.
-/// - The law sees p, not lambda_N. Right after the first touch lambda_N is still 0 while p = c_N |g| is not, so the
-/// node
-///   sticks as long as its slip increment is below about mu |g|, and a high friction coefficient is felt at once. No
-///   memory of the iteration before is needed: the same state always gives the same equation.
+/// - v_T = 0: the smooth part is (tau_1 / v at v = 0) times v_T, differentiable without a direction.
+/// - First touch: the law sees p, not lambda_N. While lambda_N is still 0, p = c_N |g| is not, so the node sticks as
+/// long
+///   as its slip increment is below about mu |g|, and a high friction coefficient is felt at once. No memory of the
+///   iteration before is needed: the same state always gives the same equation.
 #pragma once
 
 #include "tribogel/friction/law.hpp"

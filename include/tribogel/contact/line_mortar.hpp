@@ -1,11 +1,11 @@
 /// Mortar integrals of one slave and one master facet in the half plane,
 ///
-///     M_am = int psi_a(xi) N_m(eta(xi)) 2 pi R(xi) dS     over the part of the slave facet that faces the master
-///     facet,
+///     M_am = int psi_a(xi) N_m(eta(xi)) 2 pi R(xi) dS
 ///
-/// where eta is the projection along the slave's interpolated normal n(xi) = sum_a N_a n_a: (y(eta) - x(xi)) x n(xi) =
-/// 0. The cell's ends are the projections of the master's ends, or the slave's own. Summed over a chain of master
-/// facets the cells cover the slave facet once, and sum_m M_am = D_a to round-off.
+/// over the cell: the part of the slave facet that faces the master facet. eta is the projection along the slave's
+/// interpolated normal n(xi) = sum_a N_a n_a, that is (y(eta) - x(xi)) x n(xi) = 0. The cell's ends are the projections
+/// of the master's ends, or the slave's own. Summed over a chain of master facets the cells cover the slave facet once,
+/// and sum_m M_am = D_a to round-off.
 ///
 /// Where a slave facet hangs over the master's edge, the outermost master facet is continued along its end tangent (the
 /// innermost one likewise inwards), so that sum_m M_am = D_a still holds and neither tends to zero. What is integrated
@@ -173,11 +173,12 @@ private:
   /// five (order 2) are exact where both facets are straight: psi N_m R dS/dxi has degree 3 and 8.
   void add_cell(const T &from, const T &to, int edge)
   {
-    static const auto rule = gauss_rule < nodes == 2 ? 3 : 5 > ();
+    constexpr int points = nodes == 2 ? 3 : 5;
+    static const auto rule = gauss_rule<points>();
     const T half = 0.5 * (to - from), middle = 0.5 * (to + from);
     if (2 * value(half) <= length_round_off) return;
     out.covered += 2 * value(half);
-    for (std::size_t q = 0; q < rule.point.size(); ++q) {
+    for (int q = 0; q < points; ++q) {
       const T xi = middle + half * rule.point[q];
       const auto shape = facet_shape<nodes>(xi);
       const PlanePoint<T> point = interpolate(shape.N, pair.x), normal = interpolate(shape.N, pair.n);

@@ -1,0 +1,272 @@
+// The declarations themselves; option_table.hpp says what the members mean.
+#include "scene/option_table.hpp"
+
+namespace tribogel
+{
+
+namespace
+{
+
+OptionGroup scene_group()
+{
+  return {"Scene",
+          {{.name = "-model",
+            .kind = OptionKind::choice,
+            .fallback = "axisymmetric",
+            .meaning = "coaxial specimens of revolution with any rotation, in the (R, Z) half plane",
+            .source = "own",
+            .choices = {"axisymmetric"}},
+           {.name = "-task",
+            .kind = OptionKind::choice,
+            .fallback = "simulate",
+            .meaning = "simulate: from the scene to force, torque and profiles",
+            .source = "own",
+            .choices = {"simulate"}},
+           {.name = "-specimens",
+            .kind = OptionKind::choice,
+            .fallback = "both",
+            .meaning = "both: two gels in contact; bottom: one gel bonded to both plates, no contact",
+            .source = "paper",
+            .choices = {"both", "bottom"}}}};
+}
+
+OptionGroup geometry_group()
+{
+  const auto length = [](const char *name, const char *value, const char *meaning, const char *source) {
+    return Option{.name = name,
+                  .kind = OptionKind::real,
+                  .fallback = value,
+                  .unit = "mm",
+                  .meaning = meaning,
+                  .source = source,
+                  .range = positive};
+  };
+  OptionGroup group{"Geometry (undeformed)",
+                    {length("-top_radius", "10", "radius of the top specimen", "paper"),
+                     length("-top_height", "4.4", "height of the top specimen", "assumed"),
+                     length("-bottom_radius", "12.5", "radius of the bottom specimen", "paper"),
+                     length("-bottom_height", "4", "height of the bottom specimen", "assumed"),
+                     length("-initial_gap", "0", "distance of the two gels at t = 0", "own")}};
+  group.options[0].rule = "not larger than -bottom_radius: the slave surface lies inside the master surface";
+  group.options[4].range = non_negative;
+  return group;
+}
+
+/// Ogden moduli, exponents and bulk modulus: the same three for the equilibrium part and for each branch.
+std::vector<Option> ogden_options(const BranchNames &names, const std::string &part, const std::string &moduli)
+{
+  return {{.name = names.moduli,
+           .kind = OptionKind::reals,
+           .fallback = moduli,
+           .unit = "MPa",
+           .meaning = part + ": Ogden moduli G_r",
+           .source = "assumed",
+           .range = any_real,
+           .rule = "each G_r alpha_r > 0"},
+          {.name = names.exponents,
+           .kind = OptionKind::reals,
+           .fallback = "1.3,2,5",
+           .unit = "-",
+           .meaning = part + ": Ogden exponents alpha_r",
+           .source = "paper",
+           .range = any_real,
+           .rule = "not 0, as many as moduli"},
+          {.name = names.bulk_modulus,
+           .kind = OptionKind::real,
+           .fallback = "200",
+           .unit = "MPa",
+           .meaning = part + ": bulk modulus K",
+           .source = "assumed",
+           .range = positive}};
+}
+
+std::vector<Option> branch_options(const std::string &body, int branch)
+{
+  const BranchNames names = branch_names(body, branch);
+  std::vector<Option> options = ogden_options(names, "Maxwell branch", "0.25,0.45,0.18");
+  options.push_back({.name = names.viscosities,
+                     .kind = OptionKind::reals,
+                     .fallback = "4.5,200",
+                     .unit = "MPa s",
+                     .meaning = "Maxwell branch: viscosities, deviatoric and volumetric",
+                     .source = "assumed",
+                     .range = positive,
+                     .count = 2});
+  return options;
+}
+
+OptionGroup material_group(const std::string &body)
+{
+  OptionGroup group{"Material of the " + body + " specimen", {}};
+  group.options.push_back(
+      {.name = "-" + body + "_material",
+       .kind = OptionKind::choice,
+       .fallback = "viscoelastic",
+       .meaning = "viscoelastic: equilibrium part and Maxwell branches; hyperelastic: the former alone",
+       .source = "paper",
+       .choices = {"viscoelastic", "hyperelastic"}});
+  const std::string stem = "-" + body;
+  const BranchNames equilibrium{stem + "_ogden_moduli", stem + "_ogden_exponents", stem + "_bulk_modulus", ""};
+  for (const Option &option : ogden_options(equilibrium, "equilibrium", "0.75,0.45,0.18"))
+    group.options.push_back(option);
+  for (const Option &option : branch_options(body, 1)) group.options.push_back(option);
+  return group;
+}
+
+OptionGroup friction_group()
+{
+  return {"Friction of the two gels",
+          {{.name = "-friction_law",
+            .kind = OptionKind::choice,
+            .fallback = "polynomial",
+            .meaning = "none; polynomial: mu = sum_i b_i v^m_i with the sliding speed v in mm/s",
+            .source = "paper",
+            .choices = {"none", "polynomial"}},
+           {.name = "-friction_coefficients",
+            .kind = OptionKind::reals,
+            .fallback = "0,8e-4",
+            .unit = "(mm/s)^-m_i",
+            .meaning = "b_i; a negative one (weakening) is taken with a note",
+            .source = "paper",
+            .range = any_real},
+           {.name = "-friction_exponents",
+            .kind = OptionKind::reals,
+            .fallback = "0,1",
+            .unit = "-",
+            .meaning = "m_i; between 0 and 1 the law would have an infinite slope at rest",
+            .source = "paper",
+            .range = any_real,
+            .rule = "each 0 or >= 1, as many as coefficients"},
+           {.name = "-friction_pressure_exponent",
+            .kind = OptionKind::real,
+            .fallback = "1",
+            .unit = "-",
+            .meaning = "a in |traction| = mu p^a; below 1 traction over pressure would be infinite at p = 0",
+            .source = "paper",
+            .range = {1, 1},
+            .rule = "other powers need a floor of the pressure"}}};
+}
+
+OptionGroup schedule_group()
+{
+  return {"Schedule (phases of the top plate; the bottom plate is fixed)",
+          {{.name = "-schedule_end_times",
+            .kind = OptionKind::reals,
+            .fallback = "27,3600,4500,5400,6300",
+            .unit = "s",
+            .meaning = "end of each phase, counted from t = 0",
+            .source = "paper",
+            .range = positive,
+            .rule = "increasing"},
+           {.name = "-schedule_approach",
+            .kind = OptionKind::reals,
+            .fallback = "0.79",
+            .unit = "mm",
+            .meaning = "travel of the top plate since t = 0 at each phase's end, -initial_gap included; linear between"
+                       " (default: 0.79 in each phase)",
+            .source = "assumed",
+            .range = any_real,
+            .rule = "one for each phase, less than the height of what stands between the plates"},
+           {.name = "-schedule_rates",
+            .kind = OptionKind::reals,
+            .fallback = "0,0,0.01,0.1,1",
+            .unit = "rad/s",
+            .meaning = "rate of the top plate in each phase, about +z",
+            .source = "paper",
+            .range = any_real,
+            .rule = "one for each phase; not together with -schedule_twists"},
+           {.name = "-schedule_twists",
+            .kind = OptionKind::reals,
+            .fallback = "",
+            .unit = "rad",
+            .meaning = "instead of rates: angle of the top plate reached at each phase's end",
+            .source = "own",
+            .range = any_real,
+            .rule = "one for each phase; not together with -schedule_rates"},
+           {.name = "-schedule_kind",
+            .kind = OptionKind::choice,
+            .fallback = "transient",
+            .meaning = "transient: the whole history",
+            .source = "paper",
+            .choices = {"transient"}}}};
+}
+
+OptionGroup discretisation_group()
+{
+  return {"Discretisation",
+          {{.name = "-element_order",
+            .kind = OptionKind::integer,
+            .fallback = "2",
+            .unit = "-",
+            .meaning = "order of the elements",
+            .source = "own",
+            .range = {1, 2}},
+           {.name = "-elements_radial",
+            .kind = OptionKind::integer,
+            .fallback = "16",
+            .unit = "-",
+            .meaning = "elements along the top radius (the bottom one if it is alone); the rest of the mesh follows",
+            .source = "own",
+            .range = {1, 1e6}},
+           {.name = "-mesh_grading",
+            .kind = OptionKind::real,
+            .fallback = "8",
+            .unit = "-",
+            .meaning = "largest over smallest element edge; small ones go to the plates' and the contact's rims",
+            .source = "own",
+            .range = {1, 1e6}},
+           {.name = "-contact_integration",
+            .kind = OptionKind::choice,
+            .fallback = "segments",
+            .meaning = "segments: exact intervals where a slave and a master facet overlap",
+            .source = "own",
+            .choices = {"segments"}},
+           {.name = "-maxwell_integrator",
+            .kind = OptionKind::choice,
+            .fallback = "exponential_euler",
+            .meaning = "time rule of the Maxwell branches: first order, unconditionally stable",
+            .source = "paper",
+            .choices = {"exponential_euler"}}}};
+}
+
+OptionGroup output_group()
+{
+  return {"Output",
+          {{.name = "-output_directory",
+            .kind = OptionKind::path,
+            .fallback = "tribogel-output",
+            .meaning = "made if need be, parents included",
+            .source = "own",
+            .rule = "a directory that holds no run, unless -overwrite"},
+           {.name = "-overwrite",
+            .kind = OptionKind::flag,
+            .fallback = "false",
+            .meaning = "replace the files of a run that is there; other files stay",
+            .source = "own"}}};
+}
+
+} // namespace
+
+const std::vector<OptionGroup> &option_table()
+{
+  static const std::vector<OptionGroup> table{
+      scene_group(),    geometry_group(), material_group("top"),  material_group("bottom"),
+      friction_group(), schedule_group(), discretisation_group(), output_group(),
+  };
+  return table;
+}
+
+BranchNames branch_names(const std::string &body, int branch)
+{
+  const std::string stem = "-" + body + "_maxwell" + (branch > 1 ? std::to_string(branch) : "");
+  return {stem + "_ogden_moduli", stem + "_ogden_exponents", stem + "_bulk_modulus", stem + "_viscosities"};
+}
+
+std::vector<Option> further_branch_options(const std::string &body, int branch)
+{
+  std::vector<Option> options = branch_options(body, branch);
+  for (Option &option : options) option.fallback.clear();
+  return options;
+}
+
+} // namespace tribogel
