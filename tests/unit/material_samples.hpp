@@ -4,7 +4,9 @@
 #include "tribogel/material/viscoelastic.hpp"
 
 #include <Eigen/Geometry>
+#include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <string>
 #include <vector>
@@ -80,6 +82,35 @@ inline std::vector<double> history(const Viscoelastic<double> &material, int see
   return h;
 }
 
+inline std::vector<double> initial(const Viscoelastic<double> &material)
+{
+  std::vector<double> h(material.history_size());
+  material.initial_history(h.data());
+  return h;
+}
+
+/// The virgin state and one left by another deformation.
+inline std::vector<std::vector<double>> histories(const Viscoelastic<double> &material)
+{
+  return {initial(material), history(material, 41)};
+}
+
+/// One step that must succeed.
+struct Step {
+  tribogel::Response<double> response;
+  std::vector<double> history;
+};
+
+inline Step take(const Viscoelastic<double> &material, const Matrix3<double> &F, const std::vector<double> &history,
+                 double step, bool with_tangent = true)
+{
+  Step out;
+  out.history.assign(history.size(), 0);
+  out.response = material.evaluate(F, {history.data()}, {step}, out.history.data(), with_tangent);
+  EXPECT_EQ(out.response.status, tribogel::PointStatus::ok);
+  return out;
+}
+
 struct NamedDeformation {
   std::string name;
   Matrix3<double> F;
@@ -96,7 +127,7 @@ inline std::vector<NamedDeformation> deformations()
                                      {"turned uniaxial", stretched(1.3, 1.3, 0.7, 5)},
                                      {"general", stretched(1.6, 0.9, 0.65, 6)},
                                      {"large", stretched(2.9, 0.7, 0.4, 7)}};
-  for (double perturbation : {1e-16, 1e-14, 1e-12, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4}) {
+  for (double perturbation : {1e-16, 1e-12, 1e-9, 1e-8, 1e-6, 1e-4}) {
     const std::string tag = " + " + std::to_string(std::log10(perturbation));
     list.push_back({"identity" + tag, one + perturbation * noise(8)});
     list.push_back({"uniaxial" + tag, stretched(1.3, 1.3, 0.7, 5) + perturbation * noise(9)});

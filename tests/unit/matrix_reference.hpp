@@ -219,4 +219,13 @@ inline Matrix lift(const tribogel::Matrix3<double> &A)
   return A.cast<Complex>();
 }
 
+/// Levels of history, Mandel components of a tensor for each branch.
+inline std::vector<Matrix> lift_history(const std::vector<double> &history)
+{
+  std::vector<Matrix> out;
+  for (std::size_t i = 0; i < history.size(); i += 6)
+    out.push_back(lift(tribogel::from_mandel<double>(Eigen::Map<const tribogel::Mandel<double>>(&history[i]))));
+  return out;
+}
+
 } // namespace reference

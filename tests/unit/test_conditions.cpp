@@ -99,6 +99,11 @@ TEST(ContactCondition, IsZeroAtAnalyticSolutions)
     const Vector10 pushing = pack(-p * normal + tau / speed * v, 0, v);
     EXPECT_GT(contact_condition<double>(unpack<double>(pushing), scale, law).residual.norm(), tau);
   }
+  // weakening faster than c_T: the slip solution must still be one
+  const Law steep{{0.29, -0.11}, {0, 1}};
+  ASSERT_GT(0.11 * 20 * p, scale.tangential);
+  const double tau = steep.coefficient(speed, 20 * p) * 20 * p;
+  EXPECT_LT(norm_of_C(pack(-20 * p * normal - tau / speed * v, 0, v), steep, ContactStatus::slip), 1e-14);
   const Vector3<double> down(0, 0, -1);
   EXPECT_EQ(norm_of_C(pack(-p * down, 0, none, down), frictionless, ContactStatus::stick), 0);
 }

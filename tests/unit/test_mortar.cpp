@@ -131,6 +131,30 @@ TEST(LineMortar, IsExactOnFlatNonMatchingSurfaces)
   }
 }
 
+/// The same with a curved reference facet, whose weight is of degree four, that has become flat.
+TEST(LineMortar, IsExactForACurvedReferenceWeight)
+{
+  static const auto rule = gauss_rule<9>();
+  const auto measure = facet_measure<3>({{{1.3, 0}, {2.1, 0.2}, {1.62, 0.27}}});
+  const FacetPoints<3, double> x{{{1.3, 0}, {2.1, 0}, {1.7, 0}}}, n{{{0, -1}, {0, -1}, {0, -1}}};
+  const auto q = [](double r) { return 0.7 - 0.31 * r + 0.23 * r * r; };
+  std::array<double, 3> mortar_sum{}, exact{};
+  const double ends[] = {0.9, 1.5, 1.85, 2.6};
+  for (int m = 0; m < 3; ++m) {
+    const FacetPoints<3, double> y{{{ends[m], -0.1}, {ends[m + 1], -0.1}, {0.5 * (ends[m] + ends[m + 1]), -0.1}}};
+    const auto cell = line_pair_mortar<3, double>(measure, {x, n, y});
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) mortar_sum[a] += cell.M[a][b] * q(y[b].r);
+  }
+  for (int g = 0; g < 9; ++g) {
+    const auto N = facet_shape<3>(rule.point[g]).N;
+    for (int a = 0; a < 3; ++a)
+      exact[a] +=
+          rule.weight[g] * measure.basis(N)[a] * q(1.7 + 0.4 * rule.point[g]) * measure.weight(N, rule.point[g]);
+  }
+  for (int a = 0; a < 3; ++a) EXPECT_NEAR(mortar_sum[a], exact[a], 1e-13);
+}
+
 TEST(LineMortar, ReportsTheOverhangAndKeepsItsBalance)
 {
   for (int order : {1, 2}) {

@@ -23,9 +23,8 @@
 /// - b = s = 0 (no law, no load, or the state at t = 0): C_T = lambda_c, whose row is never empty.
 /// - v_T = 0: the smooth part is (tau_1 / v at v = 0) times v_T, differentiable without a direction.
 /// - First touch: the law sees p, not lambda_N. While lambda_N is still 0, p = c_N |g| is not, so the node sticks as
-/// long
-///   as its slip increment is below about mu |g|, and a high friction coefficient is felt at once. No memory of the
-///   iteration before is needed: the same state always gives the same equation.
+///   long as its slip increment is below about mu |g|, and a high friction coefficient is felt at once. No memory of
+///   the iteration before is needed: the same state always gives the same equation.
 #pragma once
 
 #include "tribogel/friction/law.hpp"
