@@ -73,6 +73,7 @@ void Contact::Unpack(const PlateFrames &frames, const std::vector<double> &value
   };
   state = {};
   state.shift = shift;
+  state.stick_rate = 1 / frames.step;
   for (std::size_t n = 0; n < slaves + mesh->master.node.size(); ++n) {
     SurfaceState<double> &surface = n < slaves ? state.slave : state.master;
     surface.u.push_back(vector(n, 0));

@@ -138,7 +138,7 @@ PetscErrorCode Measure(Problem &problem, Measurement &measurement, std::vector<P
   if (problem.contact) {
     ContactState<double> state;
     std::vector<NodeResult> nodes;
-    PetscCall(problem.contact->Results(problem.frames(problem.state.time), u, rate, state, nodes,
+    PetscCall(problem.contact->Results(problem.frames(problem.state.time, problem.state.step), u, rate, state, nodes,
                                        measurement.contact_force, measurement.contact_torque));
     average(problem, state, nodes, measurement);
     if (profile) tabulate(problem, state, nodes, *profile);

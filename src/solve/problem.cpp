@@ -73,7 +73,7 @@ PetscErrorCode Problem::SetUpFields()
   PetscFunctionReturn(0);
 }
 
-PlateFrames Problem::frames(double time) const
+PlateFrames Problem::frames(double time, double step) const
 {
   const Phase &now = phase();
   PlateFrames frames;
@@ -81,6 +81,7 @@ PlateFrames Problem::frames(double time) const
   frames.top_travel_rate = -now.approach_rate();
   frames.top_rate = now.rate;
   frames.bottom_rate = scene.bottom_plate_rate;
+  if (step > 0) frames.step = step;
   return frames;
 }
 
@@ -124,7 +125,7 @@ PetscErrorCode Problem::AddResidual(double time, const double *U, const double *
   PetscFunctionBeginUser;
   bulk_failure = bulk->AddResidual(U, state.history, weights(time), F, sizes);
   contact_failure.clear();
-  if (contact) PetscCall(contact->AddResidual(frames(time), U, Udot, F, sizes, contact_failure));
+  if (contact) PetscCall(contact->AddResidual(frames(time, time - state.time), U, Udot, F, sizes, contact_failure));
   PetscFunctionReturn(0);
 }
 
@@ -132,7 +133,7 @@ PetscErrorCode Problem::AddJacobian(double time, const double *U, const double *
 {
   PetscFunctionBeginUser;
   PetscCall(bulk->AddJacobian(U, state.history, weights(time), A, bulk_failure));
-  if (contact) PetscCall(contact->AddJacobian(frames(time), U, Udot, shift, A, contact_failure));
+  if (contact) PetscCall(contact->AddJacobian(frames(time, time - state.time), U, Udot, shift, A, contact_failure));
   PetscFunctionReturn(0);
 }
 

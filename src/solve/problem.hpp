@@ -61,7 +61,7 @@ public:
   void SetBoundary(double time, double *U, double *Udot) const;
 
   const Phase &phase() const { return scene.schedule[state.phase]; }
-  PlateFrames frames(double time) const;
+  PlateFrames frames(double time, double step) const; ///< at `time`, for a step of that length
   StepWeights weights(double time) const { return {time - state.time, 0}; } ///< backward Euler
 
   Scene scene;

@@ -177,7 +177,7 @@ PetscErrorCode Problem::UpdatePattern(SNES snes)
   PetscCall(TSGetTimeStep(ts, &step));
   PetscCall(VecGetArray(local, &u));
   SetBoundary(time + step, u, nullptr);
-  PetscCall(contact->UpdateCandidates(frames(time + step), u, covered));
+  PetscCall(contact->UpdateCandidates(frames(time + step, step), u, covered));
   PetscCall(VecRestoreArray(local, &u));
   PetscCall(DMRestoreLocalVector(mesh.dm, &local));
   if (!covered) {

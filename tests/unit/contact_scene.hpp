@@ -113,6 +113,7 @@ inline ContactState<Dual<1>> moving(const ContactScene &scene, const Eigen::Vect
   surface(from.master, to.master);
   for (const auto &lambda : from.multiplier) to.multiplier.push_back(move(lambda, 1, next)), next += 3;
   to.shift = from.shift;
+  to.stick_rate = from.stick_rate;
   return to;
 }
 
@@ -147,7 +148,7 @@ Eigen::Matrix<T, Eigen::Dynamic, 1> whole_residual(const ContactScene &scene, co
     node.x = x[a], node.n = n[a];
     add_mortar_row(chain, a, facets, node);
     add_kinematics(geometry, a, state, y, node);
-    const auto rows = node_residual<T>(geometry, a, node, state.multiplier[a], state.shift, law);
+    const auto rows = node_residual<T>(geometry, a, node, state.multiplier[a], state.stick_rate, law);
     residual.template segment<3>(3 * a) += rows.slave;
     residual.template segment<3>(multiplier) = rows.condition;
     for (std::size_t k = 0; k < node.masters.size(); ++k)

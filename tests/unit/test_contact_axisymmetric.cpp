@@ -36,6 +36,7 @@ ContactScene wavy(int order, double inner_radius, double master_radius, unsigned
                      {.order = order, .twist_length = 7.3, .softer_modulus = 1.7});
   scene.disturb(0.05, 0.3, 0.9, 0.2, seed + 20);
   scene.state.shift = 3.1;
+  scene.state.stick_rate = 2.7;
   scene.state.slave.rotation_rate = 0.03;
   scene.state.slave.travel_rate = -0.2;
   scene.state.master.rotation_rate = -0.011;
@@ -105,7 +106,7 @@ TEST(AxisymmetricContact, CommonRotationIsNoSliding)
   for (int order : {1, 2})
     for (double rate : {0.013, 71.0}) {
       ContactScene scene = wavy(order, 0, 12.5, 2);
-      auto &[slave, master, multiplier, shift] = scene.state;
+      auto &slave = scene.state.slave, &master = scene.state.master;
       const double L = scene.geometry.twist_length;
       for (auto *surface : {&slave, &master})
         for (auto &v : surface->rate) v = Vector3<double>::Zero();
@@ -310,6 +311,7 @@ TEST(AxisymmetricContact, ChangeOfUnitsScalesExactly)
     }
     for (auto &lambda : other.state.multiplier) lambda *= modulus;
     other.state.shift /= time;
+    other.state.stick_rate /= time;
     ASSERT_EQ(pairs_of_scene(scene), pairs_of_scene(other));
     const auto a = assemble(scene, pairs_of_scene(scene), law, true);
     const auto b = assemble(other, pairs_of_scene(other), other_law, true);

@@ -137,4 +137,13 @@ TEST(Maxwell, a_state_that_is_no_state_is_reported)
   EXPECT_EQ(branch.advance({0.1, 0.3, 0.2}, nan).status, PointStatus::local_newton_failed);
 }
 
+// Newton's method comes down an exponential by 1/alpha a step: from exp(40 * 6) that is too many.
+TEST(Maxwell, a_local_problem_that_is_not_solved_is_reported)
+{
+  const MaxwellBranch<double> branch{{{0.3}, {40}, 10}, 0.7, 3.1};
+  const Vector3<double> trial(6, -2.9, -3.1);
+  EXPECT_EQ(branch.advance(trial, 1e-3).status, PointStatus::local_newton_failed);
+  EXPECT_EQ(branch.advance(trial / 10, 1e-3).status, PointStatus::ok);
+}
+
 } // namespace

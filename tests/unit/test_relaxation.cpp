@@ -86,7 +86,7 @@ Mandel<double> stress_at(const Viscoelastic<double> &material, const Matrix3<dou
   return material.evaluate(F, {history.data()}, {0}, nullptr, false).tau;
 }
 
-// VERIFICATION B3. Richardson's extrapolation shows that the limit is the solution and not merely some limit.
+// Richardson's extrapolation shows that the limit is the solution and not merely some limit.
 TEST(Relaxation, converges_to_the_evolution_law_at_first_order)
 {
   auto soft = samples::paper(); // the paper's gel would hide the error in shear behind its bulk modulus
@@ -130,7 +130,7 @@ std::vector<double> relaxation(const Viscoelastic<double> &material, const Matri
   return moduli;
 }
 
-// VERIFICATION B4: the backward Euler recursion to the accuracy of the linearisation, and through it G(t) and K(t).
+// The backward Euler recursion to the accuracy of the linearisation, and through it G(t) and K(t).
 TEST(Relaxation, small_strains_relax_with_the_linear_moduli)
 {
   const double strain = 1e-5, end = 2.6;
@@ -165,7 +165,7 @@ TEST(Relaxation, small_strains_relax_with_the_linear_moduli)
   }
 }
 
-// VERIFICATION B9. Positive dissipation alone would not do: the balance ties it to stress and stored energy.
+// Positive dissipation alone would not do: the balance ties it to stress and stored energy.
 TEST(Relaxation, work_in_a_closed_cycle_is_stored_plus_dissipated)
 {
   for (const auto &material : {samples::paper(), samples::odd()}) {

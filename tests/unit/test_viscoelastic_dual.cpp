@@ -30,8 +30,6 @@ template <class A, class B> double difference(const A &a, const B &b)
   return (a - b).norm();
 }
 
-// -----------------------------------------------------------------------------------------------------
-
 /// Every number the law depends on, in one list: F, history, parameters.
 template <class T, class Visit>
 void visit_inputs(Matrix3<T> &F, std::vector<T> &history, Viscoelastic<T> &material, Visit visit)

@@ -167,7 +167,7 @@ template <FrictionLaw<Dual<10>> Law> void AxisymmetricContact::node(int a, const
   if (!geometry.nodes[a].carries) return without_multiplier(a, block);
   const NodeContact<double> contact = contact_of(a);
   const Vector3<double> &lambda = now.multiplier[a];
-  const auto values = node_residual<double>(geometry, a, contact, lambda, now.shift, law);
+  const auto values = node_residual<double>(geometry, a, contact, lambda, now.stick_rate, law);
   block.slave_nodes = slave_neighbourhood(geometry, a);
   block.master_nodes = contact.masters;
   block.status = values.status;
@@ -188,7 +188,7 @@ template <FrictionLaw<Dual<10>> Law> void AxisymmetricContact::node(int a, const
     point.normal[i] = D::seed(normal[i], 7 + i);
   }
   const auto &constants = geometry.nodes[a];
-  const auto C = contact_condition<D>(point, {constants.c_N, constants.c_N / now.shift}, law, constants.on_axis);
+  const auto C = contact_condition<D>(point, {constants.c_N, constants.c_N / now.stick_rate}, law, constants.on_axis);
   Eigen::Matrix<double, 3, 10> slope;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 10; ++j) slope(i, j) = constants.D * C.residual[i].d[j];
@@ -256,7 +256,7 @@ template <FrictionLaw<double> Law> NodeResult AxisymmetricContact::result(int a,
   const Vector3<double> &lambda = now.multiplier[a], normal(node.n.r, 0, node.n.z);
   const double area = current_area(a);
   const Vector3<double> cauchy = constants.D / area * lambda;
-  const ContactStatus status = node_residual<double>(geometry, a, node, lambda, now.shift, law).status;
+  const ContactStatus status = node_residual<double>(geometry, a, node, lambda, now.stick_rate, law).status;
   return {true,   status,   constants.D,
           area,   node.gap, -cauchy.dot(normal),
           lambda, cauchy,   node.velocity - node.velocity.dot(normal) * normal,

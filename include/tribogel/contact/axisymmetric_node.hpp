@@ -79,11 +79,12 @@ template <class T> struct NodeResidual {
 
 template <class T, class Law>
 NodeResidual<T> node_residual(const ContactGeometry &geometry, int a, const NodeContact<T> &node,
-                              const Vector3<T> &multiplier, double shift, const Law &law)
+                              const Vector3<T> &multiplier, double stick_rate, const Law &law)
 {
   const auto &constants = geometry.nodes[a];
   const ContactPoint<T> point{multiplier, {node.n.r, T(0), node.n.z}, node.gap, node.velocity};
-  const auto condition = contact_condition<T>(point, {constants.c_N, constants.c_N / shift}, law, constants.on_axis);
+  const auto condition =
+      contact_condition<T>(point, {constants.c_N, constants.c_N / stick_rate}, law, constants.on_axis);
   const Vector3<T> force = conjugate_force<T>(multiplier, node.x.r, geometry.twist_length);
   NodeResidual<T> residual{-T(constants.D) * force, {}, T(constants.D) * condition.residual, condition.status};
   for (const T &M : node.M) residual.master.push_back(M * force);

@@ -31,7 +31,10 @@ template <class T> struct ContactState {
   SurfaceState<T> slave, master;
   std::vector<Vector3<T>>
       multiplier;   ///< of each slave node: nominal traction on the slave [MPa]; 0 where none is carried
-  double shift = 1; ///< d rate / d u of the time rule [1/s]: 1/dt for backward Euler
+  double shift = 1; ///< d rate / d u of the time rule [1/s], for the Jacobian only
+  /// Sets c_T = c_N / stick_rate [1/s], say 1/dt. It is part of the equation: the residual and the Jacobian of one step
+  /// must be given the same value.
+  double stick_rate = 1;
 };
 
 /// Current position of node a.

@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 namespace tribogel
@@ -15,10 +14,12 @@ namespace tribogel
 
 /// The deviatoric response to the deviatoric strains e_a (sum zero). S is double or Dual<N>.
 template <class S> struct DeviatoricStress {
-  Vector3<S> tau = Vector3<S>::Zero();       ///< deviatoric principal Kirchhoff stresses [MPa]
-  Vector3<S> stiffness = Vector3<S>::Zero(); ///< D: d tau/d e = P diag(D) P with P = 1 - (1 1^T)/3 [MPa], THEORY (1.6)
-  Vector3<S> secant =
-      Vector3<S>::Zero(); ///< (tau_a - tau_b)/(e_a - e_b) by pair_index, finite where e_a = e_b [MPa], THEORY (1.7)
+  /// Deviatoric principal Kirchhoff stresses [MPa].
+  Vector3<S> tau = Vector3<S>::Zero();
+  /// D: d tau/d e = P diag(D) P with P = 1 - (1 1^T)/3 [MPa], THEORY (1.6).
+  Vector3<S> stiffness = Vector3<S>::Zero();
+  /// (tau_a - tau_b)/(e_a - e_b) by pair_index, also where e_a = e_b [MPa], THEORY (1.7).
+  Vector3<S> secant = Vector3<S>::Zero();
 };
 
 /// The volumetric response to theta = ln J. S is double or Dual<N>.

@@ -9,6 +9,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace tribogel
@@ -43,8 +44,8 @@ template <class T> struct Viscoelastic {
   template <class U> Viscoelastic<U> cast() const;
 
   /// Stress at the new time from the deformation gradient F there (any 3x3 matrix of physical components with a
-  /// positive determinant) and the history. `history_new` [history_size()] is written if not null and if the status is
-  /// ok; it may not be one of the levels.
+  /// positive determinant) and the history. `history_new` [history_size()] may be null, may not be one of the levels,
+  /// and is complete only if the status is ok.
   Response<T> evaluate(const Matrix3<T> &F, const HistoryLevels<T> &history, const StepWeights &weights, T *history_new,
                        bool with_tangent) const;
 
@@ -146,7 +147,7 @@ template <class T> Matrix3<T> Viscoelastic<T>::elastic_strain(const Spectral<T> 
   for (int k = 0; k < 3; ++k) {
     const int p = pair_index[k][0], q = pair_index[k][1];
     const double x = value(step.strain[p]), y = value(step.strain[q]);
-    // (b_p - b_q)/(x - y) times (x - y)/(trial_p - trial_q), THEORY (1.14)
+    // (b_p - b_q)/(x - y) times (x - y)/(trial_p - trial_q), THEORY (1.16)
     divided[k] = 2 * std::exp(x + y) * sinhc(x - y) * step.strain_ratio[k];
   }
   return isotropic_function(trial, b, divided);

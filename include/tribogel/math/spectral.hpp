@@ -1,7 +1,7 @@
 /// Spectral form of symmetric 3x3 tensors and isotropic tensor functions of them, exact at coalescing eigenvalues.
 ///
 /// Nothing here divides by a difference of eigenvalues: whoever knows the function supplies its divided differences
-/// in a form that is smooth where they coincide, THEORY (1.10). T is double or Dual<N>.
+/// in a form that is smooth where they coincide, THEORY (1.9), (1.10). T is double or Dual<N>.
 #pragma once
 
 #include "tribogel/math/elementary.hpp"

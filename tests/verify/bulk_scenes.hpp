@@ -1,0 +1,78 @@
+/// One gel between two plates, without contact: scenes, solver options and meshes for the tests of the bulk.
+#pragma once
+
+#include "scenes.hpp"
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tribogel::test
+{
+
+/// PETSc options for the problems that are set up while this lives.
+class SolverOptions
+{
+public:
+  explicit SolverOptions(std::vector<std::pair<std::string, std::string>> given) : options(std::move(given))
+  {
+    for (const auto &[name, text] : options) EXPECT_EQ(PetscOptionsSetValue(nullptr, name.c_str(), text.c_str()), 0);
+  }
+  SolverOptions(const SolverOptions &) = delete;
+  SolverOptions &operator=(const SolverOptions &) = delete;
+  ~SolverOptions()
+  {
+    for (const auto &option : options) EXPECT_EQ(PetscOptionsClearValue(nullptr, option.first.c_str()), 0);
+  }
+
+private:
+  std::vector<std::pair<std::string, std::string>> options;
+};
+
+/// Steps of the given size [s] and Newton down to round-off.
+inline std::vector<std::pair<std::string, std::string>> fixed_steps(double dt)
+{
+  return {{"-ts_adapt_type", "none"}, {"-ts_dt", std::to_string(dt)}, {"-snes_rtol", "1e-13"}};
+}
+
+/// Incompressible as bulk_over_shear grows; [MPa].
+inline Viscoelastic<double> neo_hookean(double G, double bulk_over_shear)
+{
+  return {{{G}, {2}, bulk_over_shear * G}, {}};
+}
+
+/// A gel that spans both plates, on a uniform mesh: the edges halve in both directions when `elements` doubles if
+/// height/2 is a multiple of radius/elements.
+inline Scene cylinder(double radius, double height, const Viscoelastic<double> &material, int order, int elements)
+{
+  Scene scene;
+  scene.has_top = false;
+  scene.bottom = {radius, height, material};
+  scene.mesh.element_order = order;
+  scene.mesh.elements_radial = elements;
+  scene.mesh.grading = 1;
+  return scene;
+}
+
+/// Moves the inner vertices by up to `fraction` of `edge`, in no pattern; edges stay straight.
+inline void distort(Mesh &mesh, double radius, double height, double edge, double fraction)
+{
+  for (Node &node : mesh.nodes) {
+    const double R = node.X[0], Z = node.X[1];
+    if (R < 1e-9 * radius || R > (1 - 1e-9) * radius || Z < (-1 + 1e-9) * height || Z > -1e-9 * height) continue;
+    node.X = {R + fraction * edge * std::sin(37 * R + 11 * Z), Z + fraction * edge * std::cos(23 * R - 17 * Z)};
+  }
+  if (mesh.order == 1) return;
+  constexpr int between[5][3] = {{1, 0, 2}, {3, 0, 6}, {5, 2, 8}, {7, 6, 8}, {4, 0, 8}};
+  for (const MeshCell &cell : mesh.cells)
+    for (const auto &[middle, a, b] : between) {
+      const bool centre = middle == 4;
+      for (int j = 0; j < 2; ++j) {
+        const auto X = [&](int slot) { return mesh.nodes[cell.node[slot]].X[j]; };
+        mesh.nodes[cell.node[middle]].X[j] = centre ? 0.25 * (X(0) + X(2) + X(6) + X(8)) : 0.5 * (X(a) + X(b));
+      }
+    }
+}
+
+} // namespace tribogel::test

@@ -1,0 +1,179 @@
+/// Residual and Jacobian of an assembled Problem at any state, as TS would ask for them. One rank.
+#pragma once
+
+#include "scenes.hpp"
+
+#include <algorithm>
+#include <random>
+
+namespace tribogel::test
+{
+
+/// PETSc options for the life of the object.
+class Options
+{
+public:
+  explicit Options(std::vector<std::pair<std::string, std::string>> given) : options(std::move(given))
+  {
+    for (const auto &[name, value] : options) EXPECT_EQ(PetscOptionsSetValue(nullptr, name.c_str(), value.c_str()), 0);
+  }
+  Options(const Options &) = delete;
+  ~Options()
+  {
+    for (const auto &[name, value] : options) EXPECT_EQ(PetscOptionsClearValue(nullptr, name.c_str()), 0);
+  }
+
+private:
+  std::vector<std::pair<std::string, std::string>> options;
+};
+
+using Values = std::vector<double>; ///< of the global unknowns
+
+/// F(t, U, shift (U - U_n)) of a step that starts at the problem's committed state.
+class Probe
+{
+public:
+  Probe(Problem &of, double step) : problem(of), time(of.state.time + step), shift(1 / step), start(values(of.state.U))
+  {
+  }
+
+  static Values values(Vec v)
+  {
+    PetscInt n;
+    const PetscScalar *array;
+    EXPECT_EQ(VecGetLocalSize(v, &n), 0);
+    EXPECT_EQ(VecGetArrayRead(v, &array), 0);
+    Values copy(array, array + n);
+    EXPECT_EQ(VecRestoreArrayRead(v, &array), 0);
+    return copy;
+  }
+
+  Values committed() const { return start; }
+
+  /// The residual; `magnitude` gets the sum of absolute forces of each row.
+  Values residual(const Values &U, Values *magnitude = nullptr)
+  {
+    Values F;
+    EXPECT_EQ(Residual(U, F, magnitude), 0);
+    return F;
+  }
+
+  /// The matrix, its pattern made to cover the pairs of facets that meet at U. Rows in full.
+  std::vector<Values> jacobian(const Values &U)
+  {
+    std::vector<Values> rows;
+    EXPECT_EQ(Jacobian(U, rows), 0);
+    return rows;
+  }
+
+  /// Statuses of the slave nodes in the last evaluation, counted: open, stick, slip.
+  std::array<int, 3> statuses() const
+  {
+    std::array<int, 3> count{};
+    NodeBlock block;
+    const AxisymmetricContact &model = problem.contact->model();
+    for (std::size_t a = 0; a < model.reference().nodes.size(); ++a) {
+      if (!model.reference().nodes[a].carries) continue;
+      model.node(static_cast<int>(a), problem.scene.friction, block);
+      ++count[static_cast<std::size_t>(block.status)];
+    }
+    return count;
+  }
+
+  Problem &problem;
+  double time, shift;
+
+private:
+  PetscErrorCode Local(const Values &values, Vec local) const
+  {
+    Vec global;
+    PetscScalar *array;
+    PetscFunctionBeginUser;
+    PetscCall(DMGetGlobalVector(problem.mesh.dm, &global));
+    PetscCall(VecGetArray(global, &array));
+    std::copy(values.begin(), values.end(), array);
+    PetscCall(VecRestoreArray(global, &array));
+    PetscCall(VecZeroEntries(local));
+    PetscCall(DMGlobalToLocal(problem.mesh.dm, global, INSERT_VALUES, local));
+    PetscCall(DMRestoreGlobalVector(problem.mesh.dm, &global));
+    PetscFunctionReturn(0);
+  }
+
+  PetscErrorCode LocalState(const Values &U, Values &u, Values &rate) const
+  {
+    Vec local;
+    Values velocity(U.size());
+    PetscFunctionBeginUser;
+    for (std::size_t k = 0; k < U.size(); ++k) velocity[k] = shift * (U[k] - start[k]);
+    PetscCall(DMGetLocalVector(problem.mesh.dm, &local));
+    PetscCall(Local(U, local));
+    u = values(local);
+    PetscCall(Local(velocity, local));
+    rate = values(local);
+    PetscCall(DMRestoreLocalVector(problem.mesh.dm, &local));
+    problem.SetBoundary(time, u.data(), rate.data());
+    PetscFunctionReturn(0);
+  }
+
+  PetscErrorCode Global(const Values &local_values, Values &global_values) const
+  {
+    Vec local, global;
+    PetscScalar *array;
+    PetscFunctionBeginUser;
+    PetscCall(DMGetLocalVector(problem.mesh.dm, &local));
+    PetscCall(DMGetGlobalVector(problem.mesh.dm, &global));
+    PetscCall(VecGetArray(local, &array));
+    std::copy(local_values.begin(), local_values.end(), array);
+    PetscCall(VecRestoreArray(local, &array));
+    PetscCall(VecZeroEntries(global));
+    PetscCall(DMLocalToGlobal(problem.mesh.dm, local, ADD_VALUES, global));
+    global_values = values(global);
+    PetscCall(DMRestoreGlobalVector(problem.mesh.dm, &global));
+    PetscCall(DMRestoreLocalVector(problem.mesh.dm, &local));
+    PetscFunctionReturn(0);
+  }
+
+  PetscErrorCode Residual(const Values &U, Values &F, Values *magnitude)
+  {
+    Values u, rate;
+    PetscFunctionBeginUser;
+    PetscCall(LocalState(U, u, rate));
+    Values f(u.size(), 0.0), sizes(u.size(), 0.0);
+    PetscCall(problem.AddResidual(time, u.data(), rate.data(), f.data(), sizes.data()));
+    EXPECT_FALSE(problem.bulk_failure);
+    EXPECT_EQ(problem.contact_failure, "");
+    PetscCall(Global(f, F));
+    if (magnitude) PetscCall(Global(sizes, *magnitude));
+    PetscFunctionReturn(0);
+  }
+
+  PetscErrorCode Jacobian(const Values &U, std::vector<Values> &rows)
+  {
+    Values u, rate;
+    bool covered = true;
+    PetscFunctionBeginUser;
+    PetscCall(LocalState(U, u, rate));
+    if (problem.contact) PetscCall(problem.contact->UpdateCandidates(problem.frames(time), u.data(), covered));
+    if (!covered) PetscCall(problem.BuildMatrix());
+    PetscCall(MatZeroEntries(problem.jacobian));
+    PetscCall(problem.AddJacobian(time, u.data(), rate.data(), shift, problem.jacobian));
+    EXPECT_FALSE(problem.bulk_failure);
+    EXPECT_EQ(problem.contact_failure, "");
+    PetscCall(MatAssemblyBegin(problem.jacobian, MAT_FINAL_ASSEMBLY));
+    PetscCall(MatAssemblyEnd(problem.jacobian, MAT_FINAL_ASSEMBLY));
+    rows.assign(U.size(), Values(U.size(), 0.0));
+    for (std::size_t i = 0; i < U.size(); ++i) {
+      PetscInt n;
+      const PetscInt *columns;
+      const PetscScalar *entries;
+      PetscCall(MatGetRow(problem.jacobian, static_cast<PetscInt>(i), &n, &columns, &entries));
+      for (PetscInt k = 0; k < n; ++k) rows[i][static_cast<std::size_t>(columns[k])] = entries[k];
+      PetscCall(MatRestoreRow(problem.jacobian, static_cast<PetscInt>(i), &n, &columns, &entries));
+    }
+    PetscFunctionReturn(0);
+  }
+
+  Values start;
+};
+
+} // namespace tribogel::test

@@ -1,0 +1,74 @@
+/// An initial gap: before the gels touch, N and T are exactly zero although the plate moves and turns; afterwards the
+/// state is that of the scene without a gap whose plate travelled the gap less. Exact for elastic gels at rest or in
+/// steady rotation, which remember no path.
+#include "uniform_compression.hpp"
+
+namespace tribogel::test
+{
+
+namespace
+{
+
+constexpr double gap = 0.23;
+
+Scene scene_with_gap(double initial_gap, int order)
+{
+  Scene scene = paper_scene(5, order);
+  scene.top.material = scene.bottom.material = hyperelastic_gel();
+  scene.initial_gap = initial_gap;
+  const double approach = 0.79 + initial_gap;
+  scene.schedule = schedule_from_rates({27, 300, 500}, {approach, approach, approach}, {0.05, 0, 0.1});
+  return scene;
+}
+
+} // namespace
+
+TEST(gap, NothingBeforeTouchAndTheSameStateAfterwards)
+{
+  const SolverOptions options({{"-snes_rtol", "1e-11"}});
+  for (int order : {1, 2}) {
+    Problem open, closed;
+    Recorder with(""), without("");
+    run(scene_with_gap(gap, order), open, with);
+    run(scene_with_gap(0, order), closed, without);
+    int before = 0, after = 0;
+    for (const HistoryRow &row : with.rows) {
+      if (row.approach < gap) {
+        ++before;
+        EXPECT_EQ(row.measurement.normal_force, 0);
+        EXPECT_EQ(row.measurement.torque, 0);
+        EXPECT_EQ(row.measurement.contact_force, 0);
+        EXPECT_EQ(row.measurement.contact_torque, 0);
+        EXPECT_TRUE(std::isnan(row.measurement.contact_radius));
+      } else if (row.approach > 1.01 * gap) {
+        ++after;
+        EXPECT_GT(row.measurement.normal_force, 0);
+      }
+    }
+    EXPECT_GE(before, 5);
+    EXPECT_GE(after, 10);
+    ASSERT_EQ(with.last_profile.size(), without.last_profile.size());
+    for (std::size_t k : {1u, 2u}) { // at rest, then turning
+      const Measurement &a = with.phases[k].measurement, &b = without.phases[k].measurement;
+      EXPECT_NEAR(a.normal_force / b.normal_force, 1, 1e-8);
+      EXPECT_NEAR(a.contact_radius / b.contact_radius, 1, 1e-8);
+      std::cout << "[  numbers ] order " << order << " N " << a.normal_force / b.normal_force - 1 << " a "
+                << a.contact_radius / b.contact_radius - 1 << " T " << a.torque << " " << b.torque << " before " << before
+                << std::endl;
+    }
+    const double T = without.phases[2].measurement.torque;
+    ASSERT_GT(T, 0.01);
+    EXPECT_NEAR(with.phases[2].measurement.torque / T, 1, 1e-8);
+    double pressure = 0, place = 0;
+    for (std::size_t k = 0; k < with.last_profile.size(); ++k) {
+      const ProfileRow &a = with.last_profile[k], &b = without.last_profile[k];
+      place = std::max(place, std::hypot(a.r - b.r, a.z - b.z));
+      if (!std::isnan(b.pressure)) pressure = std::max(pressure, std::abs(a.pressure - b.pressure));
+    }
+    std::cout << "[  numbers ] place " << place << " pressure " << pressure << std::endl;
+    EXPECT_LE(place, 1e-8 * 10);
+    EXPECT_LE(pressure, 1e-8);
+  }
+}
+
+} // namespace tribogel::test

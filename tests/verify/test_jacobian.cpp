@@ -1,0 +1,161 @@
+/// The assembled matrix dF/dU + shift dF/dUdot (bulk with history, contact open, sticking, slipping and over the
+/// master's edge, friction, plates in motion) against five-point central differences of the assembled residual
+/// F(t, U, shift (U - U_n)), along random directions, a column group at a time (three displacement, three traction
+/// components). States are random perturbations of solved ones with random tractions: a solved state hides terms that
+/// vanish there. Each row i is held against sum_j |J_ij w_j|, so that rows of small weight (the axis) count like others.
+/// Tolerance: 1e-8 relative, plus the round-off 64 eps (sum of absolute forces) / h of the difference itself.
+#include "probe.hpp"
+
+#include <limits>
+
+namespace tribogel::test
+{
+
+namespace
+{
+
+constexpr double relative_tolerance = 1e-8;
+
+struct Case {
+  int order;
+  double bottom_radius, gap;
+  std::vector<double> coefficients, exponents;
+  double traction; ///< largest random traction [MPa]
+  bool wanted[3];  ///< open, stick, slip must occur
+};
+
+Scene scene_of(const Case &c)
+{
+  Scene scene = paper_scene(5, c.order);
+  scene.bottom.radius = c.bottom_radius;
+  scene.bottom.material = hyperelastic_gel(); // history on one side of the contact only
+  scene.top.material.branches[0].deviatoric_viscosity = 2.7;
+  scene.initial_gap = c.gap;
+  scene.friction = {c.coefficients, c.exponents};
+  scene.schedule = schedule_from_rates({2.3, 4.1}, {0.31, 0.37}, {0.013, 0.17});
+  scene.bottom_plate_rate = 0.021;
+  scene.mesh.grading = 2;
+  return scene;
+}
+
+/// Random displacements of a fraction of the element size, random tractions.
+Values perturbed(const Probe &probe, double traction, std::mt19937 &random)
+{
+  std::uniform_real_distribution<double> in(-1, 1);
+  Values U = probe.committed();
+  for (std::size_t k = 0; k < U.size(); ++k)
+    U[k] += (probe.problem.group[k] < 3 ? 0.011 : traction) * in(random);
+  return U;
+}
+
+/// Largest relative error of each row group over the directions.
+std::array<double, residual_groups> errors(Probe &probe, const Values &U, std::mt19937 &random)
+{
+  constexpr double h = 3e-5; // mm or MPa
+  const std::vector<Values> J = probe.jacobian(U);
+  const auto &group = probe.problem.group;
+  Values size;
+  probe.residual(U, &size);
+  std::array<double, residual_groups> worst{};
+  std::uniform_real_distribution<double> in(-1, 1);
+  for (int column_group = 0; column_group < residual_groups; ++column_group)
+    for (int repeat = 0; repeat < 3; ++repeat) {
+      Values w(U.size(), 0.0), slope(U.size(), 0.0);
+      for (std::size_t k = 0; k < U.size(); ++k)
+        if (group[k] == column_group) w[k] = in(random);
+      for (const auto &[at, weight] : {std::pair{-2, 1.0}, {-1, -8.0}, {1, 8.0}, {2, -1.0}}) {
+        Values moved = U;
+        for (std::size_t k = 0; k < U.size(); ++k) moved[k] += at * h * w[k];
+        const Values F = probe.residual(moved);
+        for (std::size_t k = 0; k < U.size(); ++k) slope[k] += weight * F[k] / (12 * h);
+      }
+      for (std::size_t i = 0; i < U.size(); ++i) {
+        double product = 0, scale = 0;
+        for (std::size_t j = 0; j < U.size(); ++j) {
+          product += J[i][j] * w[j];
+          scale += std::abs(J[i][j] * w[j]);
+        }
+        const double noise = 64 * std::numeric_limits<double>::epsilon() * size[i] / h;
+        const double error = std::max(std::abs(product - slope[i]) - noise, 0.0);
+        double &largest = worst[static_cast<std::size_t>(group[i])];
+        largest = std::max(largest, error == 0 ? 0 : error / scale);
+      }
+    }
+  return worst;
+}
+
+void check(const Case &c, double step)
+{
+  Problem problem;
+  Recorder recorder("");
+  run(scene_of(c), problem, recorder);
+  Probe probe(problem, step);
+  std::mt19937 random(20);
+  const Values U = perturbed(probe, c.traction, random);
+  const auto worst = errors(probe, U, random);
+  for (int g = 0; g < residual_groups; ++g) {
+    EXPECT_LE(worst[g], relative_tolerance) << group_names[g] << ", order " << c.order << ", step " << step;
+    ::testing::Test::RecordProperty(group_names[g], std::to_string(worst[g]));
+  }
+  probe.residual(U);
+  const auto count = probe.statuses();
+  for (int s = 0; s < 3; ++s)
+    if (c.wanted[s]) EXPECT_GE(count[s], 2) << "status " << s;
+}
+
+} // namespace
+
+class jacobian : public ::testing::TestWithParam<int>
+{
+};
+
+TEST_P(jacobian, OfOpenGels)
+{
+  check({GetParam(), 12.5, 0.9, {0.23, 0.07}, {0, 1}, 0.013, {true, false, false}}, 0.37);
+}
+
+TEST_P(jacobian, OfViscousFriction)
+{
+  check({GetParam(), 12.5, 0.03, {0, 0.07, 0.011}, {0, 1, 2}, 0.043, {true, false, true}}, 0.37);
+}
+
+TEST_P(jacobian, OfOpenStickingAndSlippingNodes)
+{
+  check({GetParam(), 12.5, 0.03, {0.33, 0.07}, {0, 1}, 0.043, {true, true, true}}, 0.37);
+}
+
+TEST_P(jacobian, OfALongStep)
+{
+  check({GetParam(), 12.5, 0.03, {0.33, 0.07}, {0, 1}, 0.043, {true, false, true}}, 23);
+}
+
+TEST_P(jacobian, OfAFaceThatHangsOverTheEdge)
+{
+  check({GetParam(), 9.7, 0.03, {0.33, 0.07}, {0, 1}, 0.043, {true, true, true}}, 0.37);
+}
+
+INSTANTIATE_TEST_SUITE_P(order, jacobian, ::testing::Values(1, 2));
+
+/// The bulk has an incremental potential: its part of the matrix is symmetric, with mean dilatation and history.
+TEST(jacobian_bulk, IsSymmetric)
+{
+  for (int order : {1, 2}) {
+    Problem problem;
+    Recorder recorder("");
+    run(scene_of({order, 12.5, 0.9, {0.23}, {0}, 0, {}}), problem, recorder);
+    Probe probe(problem, 0.37);
+    std::mt19937 random(7);
+    const auto J = probe.jacobian(perturbed(probe, 0, random));
+    double largest = 0, difference = 0;
+    for (std::size_t i = 0; i < J.size(); ++i)
+      for (std::size_t j = 0; j < J.size(); ++j) {
+        if (problem.group[i] > 2 || problem.group[j] > 2) continue;
+        largest = std::max(largest, std::abs(J[i][j]));
+        difference = std::max(difference, std::abs(J[i][j] - J[j][i]));
+      }
+    EXPECT_GT(largest, 1);
+    EXPECT_LE(difference, 1e-12 * largest) << "order " << order;
+  }
+}
+
+} // namespace tribogel::test
