@@ -72,6 +72,18 @@ PetscErrorCode Jacobian(DM, PetscReal time, Vec U, Vec Udot, PetscReal shift, Ma
   PetscFunctionReturn(0);
 }
 
+/// Start of a solve: the last step's motion goes on. After a jump of the plate's motion nothing is known of it.
+PetscErrorCode Predict(SNES, Vec U, void *context)
+{
+  auto &problem = *static_cast<Problem *>(context);
+  PetscReal step;
+  PetscFunctionBeginUser;
+  PetscCall(TSGetTimeStep(problem.ts, &step));
+  PetscCall(VecCopy(problem.state.U, U));
+  if (problem.state.time > problem.phase().start_time) PetscCall(VecAXPY(U, step, problem.state.Udot));
+  PetscFunctionReturn(0);
+}
+
 /// Start of a Newton iteration: the surfaces may have slid out of the matrix's pattern.
 PetscErrorCode StartIteration(SNES snes, PetscInt)
 {
@@ -132,6 +144,7 @@ PetscErrorCode RegisterCallbacks(Problem &problem)
   PetscCall(TSSetPostStep(problem.ts, PostStep));
   PetscCall(TSGetSNES(problem.ts, &snes));
   PetscCall(SNESSetApplicationContext(snes, &problem));
+  PetscCall(SNESSetComputeInitialGuess(snes, Predict, &problem));
   PetscCall(SNESSetUpdate(snes, StartIteration));
   PetscCall(SNESSetConvergenceTest(snes, Converged, &problem, nullptr));
   PetscFunctionReturn(0);

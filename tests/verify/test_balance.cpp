@@ -10,9 +10,9 @@ namespace
 {
 
 /// Largest mismatches over the rows, over the largest N and N R.
-std::array<double, 2> mismatch(Scene scene, double newton_tolerance)
+std::array<double, 2> mismatch(const Scene &scene, double tolerance)
 {
-  const SolverOptions options({{"-snes_rtol", text_of(newton_tolerance)}});
+  const SolverOptions options(newton_tolerance(tolerance));
   Problem problem;
   Recorder recorder("");
   run(scene, problem, recorder);
@@ -25,7 +25,7 @@ std::array<double, 2> mismatch(Scene scene, double newton_tolerance)
   }
   EXPECT_GT(N, 10);
   EXPECT_GT(recorder.rows.size(), 50u);
-  std::cout << "[  numbers ] tolerance " << newton_tolerance << ": force " << force / N << " torque " << torque / T
+  std::cout << "[  numbers ] tolerance " << tolerance << ": force " << force / N << " torque " << torque / T
             << " of N " << N << " T " << T << " rows " << recorder.rows.size() << " newton "
             << problem.counts.newton_iterations << std::endl;
   return {force / N, T > 0 ? torque / T : torque};

@@ -25,7 +25,7 @@ Scene scene_with_gap(double initial_gap, int order)
 
 TEST(gap, NothingBeforeTouchAndTheSameStateAfterwards)
 {
-  const SolverOptions options({{"-snes_rtol", "1e-11"}});
+  const SolverOptions options(newton_tolerance(1e-11));
   for (int order : {1, 2}) {
     Problem open, closed;
     Recorder with(""), without("");

@@ -95,12 +95,13 @@ void check(const Case &c, double step)
   const auto worst = errors(probe, U, random);
   for (int g = 0; g < residual_groups; ++g) {
     EXPECT_LE(worst[g], relative_tolerance) << group_names[g] << ", order " << c.order << ", step " << step;
-    ::testing::Test::RecordProperty(group_names[g], std::to_string(worst[g]));
+    if(getenv("VC")) printf("VC %s order %d step %g: %.2e\n",group_names[g],c.order,step,worst[g]);
   }
   probe.residual(U);
   const auto count = probe.statuses();
-  for (int s = 0; s < 3; ++s)
-    if (c.wanted[s]) EXPECT_GE(count[s], 2) << "status " << s;
+  if(getenv("VC")) printf("VC statuses %d %d %d overhang %g rebuilds\n",count[0],count[1],count[2],problem.contact->overhang);
+  for (std::size_t s = 0; s < 3; ++s)
+    EXPECT_GE(count[s], c.wanted[s] ? 2 : 0) << "status " << s;
 }
 
 } // namespace

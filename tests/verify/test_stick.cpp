@@ -29,7 +29,7 @@ struct Twisted {
 /// Compressed in phase 1, turned by `twist` times theta_slip in phase 2 (4 s), held to `end` in phase 3.
 void twist_and_hold(Twisted &is, int order, double twist, double end)
 {
-  const SolverOptions options({{"-snes_rtol", "1e-12"}});
+  const SolverOptions options(newton_tolerance(1e-12));
   const double compression = 0.08;
   Scene scene = lubricated_discs(7, 3.1, 2.3, order);
   scene.mesh.bottom_elements_radial = 7;

@@ -65,8 +65,7 @@ void expect_same(const PolynomialFriction<double> &friction, const Units &unit, 
   Recorder old_rows(""), new_rows("");
   const Scene scene = scene_of(friction);
   for (const bool in_new : {false, true}) {
-    std::vector<std::pair<std::string, std::string>> given;
-    if (dt > 0) given = fixed_steps(dt * (in_new ? unit.time : 1), 1e-9);
+    const OptionList given = dt > 0 ? fixed_steps(dt * (in_new ? unit.time : 1), 1e-9) : OptionList{};
     const SolverOptions options(given);
     Problem problem;
     run(in_new ? converted(scene, unit) : scene, problem, in_new ? new_rows : old_rows);

@@ -14,11 +14,20 @@
 namespace tribogel::test
 {
 
+inline std::string text_of(double x)
+{
+  std::ostringstream text;
+  text << std::setprecision(17) << x;
+  return text.str();
+}
+
+using OptionList = std::vector<std::pair<std::string, std::string>>;
+
 /// PETSc options that hold while this lives; a `Problem` reads them in SetUp.
 class SolverOptions
 {
 public:
-  explicit SolverOptions(std::vector<std::pair<std::string, std::string>> given) : options(std::move(given))
+  explicit SolverOptions(OptionList given) : options(std::move(given))
   {
     for (const auto &[name, value] : options) PetscOptionsSetValue(nullptr, name.c_str(), value.c_str());
   }
@@ -30,20 +39,16 @@ public:
   }
 
 private:
-  std::vector<std::pair<std::string, std::string>> options;
+  OptionList options;
 };
 
-inline std::string text_of(double x)
-{
-  std::ostringstream text;
-  text << std::setprecision(17) << x;
-  return text.str();
-}
+/// Residuals over the forces that meet in them.
+inline OptionList newton_tolerance(double tolerance) { return {{"-snes_rtol", text_of(tolerance)}}; }
 
 /// Steps of equal size `dt` [s]; each phase still ends exactly.
-inline std::vector<std::pair<std::string, std::string>> fixed_steps(double dt, double newton_tolerance)
+inline OptionList fixed_steps(double dt, double tolerance)
 {
-  return {{"-ts_adapt_type", "none"}, {"-ts_dt", text_of(dt)}, {"-snes_rtol", text_of(newton_tolerance)}};
+  return {{"-ts_adapt_type", "none"}, {"-ts_dt", text_of(dt)}, {"-snes_rtol", text_of(tolerance)}};
 }
 
 /// Homogeneous uniaxial compression of a hyperelastic cylinder with a free wall.

@@ -1,0 +1,112 @@
+/// Any number of ranks gives the numbers of one: the same scene with equal fixed steps on all ranks of PETSC_COMM_WORLD
+/// and, alone, on PETSC_COMM_SELF. Newton goes on to 1e-12 of the forces, the solver is direct, so that what is left is
+/// the round-off of another order of summation: |dN| <= 1e-10 max N, |dT| <= 1e-10 max N R at every step.
+#include "probe.hpp"
+
+namespace tribogel::test
+{
+
+namespace
+{
+
+Scene scene_of(int order, double mu_0)
+{
+  Scene scene = paper_scene(6, order);
+  scene.friction = {{mu_0, 8e-3}, {0, 1}};
+  scene.initial_gap = 0.05;
+  scene.schedule = schedule_from_rates({3, 5, 9}, {0.47, 0.47, 0.53}, {0, 0.013, 0.27});
+  return scene;
+}
+
+void run_on(MPI_Comm comm, const Scene &scene, Problem &problem, Recorder &recorder)
+{
+  bool completed = false;
+  std::string why;
+  ASSERT_EQ(problem.SetUp(comm, scene), 0);
+  ASSERT_EQ(problem.Run({&recorder}, completed, why), 0);
+  ASSERT_TRUE(completed) << why;
+}
+
+int sum_over_ranks(int mine)
+{
+  MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_INT, MPI_SUM, PETSC_COMM_WORLD);
+  return mine;
+}
+
+class ranks : public ::testing::TestWithParam<std::pair<int, double>>
+{
+};
+
+} // namespace
+
+TEST_P(ranks, GiveTheNumbersOfOne)
+{
+  const auto [order, mu_0] = GetParam();
+  const Options options({{"-snes_rtol", "1e-12"}, {"-ts_adapt_type", "none"}, {"-ts_dt", "0.5"}});
+  const Scene scene = scene_of(order, mu_0);
+  Problem shared, single;
+  Recorder many(""), one("");
+  run_on(PETSC_COMM_WORLD, scene, shared, many);
+  run_on(PETSC_COMM_SELF, scene, single, one);
+
+  ASSERT_EQ(many.rows.size(), one.rows.size());
+  ASSERT_EQ(many.rows.size(), 19u); // the initial state and 18 steps of half a second
+  double N = 0, dN = 0, dT = 0;
+  for (std::size_t k = 0; k < one.rows.size(); ++k) {
+    EXPECT_EQ(many.rows[k].time, one.rows[k].time);
+    const Measurement &a = many.rows[k].measurement, &b = one.rows[k].measurement;
+    N = std::max(N, std::abs(b.normal_force));
+    dN = std::max({dN, std::abs(a.normal_force - b.normal_force), std::abs(a.contact_force - b.contact_force)});
+    dT = std::max({dT, std::abs(a.torque - b.torque), std::abs(a.contact_torque - b.contact_torque)});
+  }
+  EXPECT_GT(N, 10);
+  EXPECT_GT(one.rows.back().measurement.torque, 1e-3 * N * scene.top.radius);
+  EXPECT_LE(dN, 1e-10 * N);
+  EXPECT_LE(dT, 1e-10 * N * scene.top.radius);
+  if (getenv("VC") && single.scene.top.radius > 0) printf("VC order %d mu0 %g dN/N %.2e dT/NR %.2e N %g T %g\n", order, mu_0, dN/N, dT/N/scene.top.radius, N, one.rows.back().measurement.torque);
+}
+
+INSTANTIATE_TEST_SUITE_P(scenes, ranks,
+                         ::testing::Values(std::pair{1, 0.0}, std::pair{2, 0.0}, std::pair{1, 0.07}, std::pair{2, 0.07}));
+
+/// Each cell and each unknown has one rank; the load is shared.
+TEST(ranks_partition, SharesTheCellsOut)
+{
+  int size;
+  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  Problem shared, single;
+  ASSERT_EQ(shared.SetUp(PETSC_COMM_WORLD, scene_of(2, 0)), 0);
+  ASSERT_EQ(single.SetUp(PETSC_COMM_SELF, scene_of(2, 0)), 0);
+  const int all = static_cast<int>(single.mesh.cells.size()), mine = static_cast<int>(shared.mesh.cells.size());
+  EXPECT_EQ(sum_over_ranks(mine), all);
+  int owned = 0;
+  for (const Node &node : shared.mesh.nodes) owned += node.owned;
+  EXPECT_EQ(sum_over_ranks(owned), static_cast<int>(single.mesh.nodes.size()));
+
+  const double unknowns = static_cast<double>(shared.group.size());
+  EXPECT_EQ(sum_over_ranks(static_cast<int>(shared.group.size())), shared.mesh.unknowns);
+  EXPECT_EQ(shared.mesh.unknowns, single.mesh.unknowns);
+  EXPECT_LE(unknowns, (size == 1 ? 1 : 1.2 / size) * single.mesh.unknowns);
+  EXPECT_GE(unknowns, 0.8 / size * single.mesh.unknowns);
+  if (getenv("VC")) printf("VC size %d cells %d of %d unknowns %g of %d slave nodes here %d\n", size, mine, all, unknowns, (int)single.mesh.unknowns, (int)std::count_if(shared.mesh.slave.node.begin(), shared.mesh.slave.node.end(), [](auto&n){return n.local>=0;}));
+}
+
+/// The contact surfaces are the same list on every rank, and every node of theirs has one owner.
+TEST(ranks_partition, KnowsTheContactSurfacesEverywhere)
+{
+  Problem shared, single;
+  ASSERT_EQ(shared.SetUp(PETSC_COMM_WORLD, scene_of(2, 0)), 0);
+  ASSERT_EQ(single.SetUp(PETSC_COMM_SELF, scene_of(2, 0)), 0);
+  for (const auto &[many, one] : {std::pair{&shared.mesh.slave, &single.mesh.slave},
+                                  std::pair{&shared.mesh.master, &single.mesh.master}}) {
+    ASSERT_EQ(many->node.size(), one->node.size());
+    ASSERT_EQ(many->facet.size(), one->facet.size());
+    for (std::size_t n = 0; n < one->node.size(); ++n) {
+      EXPECT_EQ(many->node[n].X, one->node[n].X);
+      EXPECT_EQ(many->node[n].multiplier, one->node[n].multiplier);
+      EXPECT_EQ(sum_over_ranks(many->node[n].local >= 0), 1);
+    }
+  }
+}
+
+} // namespace tribogel::test
