@@ -17,6 +17,35 @@ constexpr double round_off_allowance = 16;
 
 } // namespace
 
+/// The node of the largest entry in the worst group, for messages.
+PetscErrorCode Problem::LocateWorst(const double *f)
+{
+  struct {
+    double size;
+    int rank;
+  } largest{-1, 0};
+  std::size_t place = 0;
+  PetscMPIInt rank;
+  PetscFunctionBeginUser;
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm)));
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  largest.rank = rank;
+  for (std::size_t k = 0; k < group.size(); ++k)
+    if (group[k] == worst.group && std::abs(f[k]) > largest.size) {
+      largest.size = std::abs(f[k]);
+      place = k;
+    }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm));
+  if (rank == largest.rank) {
+    const Node &node = mesh.nodes[node_of_row[place]];
+    worst.X = node.X;
+    worst.body = node.body;
+  }
+  PetscCallMPI(MPI_Bcast(worst.X.data(), 2, MPI_DOUBLE, largest.rank, comm));
+  PetscCallMPI(MPI_Bcast(&worst.body, 1, MPI_INT, largest.rank, comm));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode Problem::JudgeResidual(Vec F, bool &converged)
 {
   const PetscScalar *f, *sizes, *floors;
@@ -52,6 +81,7 @@ PetscErrorCode Problem::JudgeResidual(Vec F, bool &converged)
     }
   }
   converged = worst.ratio <= 1;
+  if (worst.group >= 0 && !converged) PetscCall(LocateWorst(f));
   PetscCall(VecRestoreArrayRead(round_off, &floors));
   PetscCall(VecRestoreArrayRead(magnitude, &sizes));
   PetscCall(VecRestoreArrayRead(F, &f));

@@ -9,7 +9,10 @@ PetscErrorCode Problem::SetUp(MPI_Comm comm, const Scene &given)
 {
   PetscFunctionBeginUser;
   scene = given;
+  PetscCall(events.Register());
+  PetscCall(PetscLogEventBegin(events.mesh, 0, 0, 0, 0));
   PetscCall(mesh.Build(comm, scene));
+  PetscCall(PetscLogEventEnd(events.mesh, 0, 0, 0, 0));
   PetscCall(Bulk::Create(mesh, scene, bulk));
   if (scene.has_top) {
     contact = std::make_unique<Contact>();
@@ -52,12 +55,17 @@ PetscErrorCode Problem::SetUpFields()
   PetscCall(ISLocalToGlobalMappingGetIndices(mapping, &to_global));
   PetscCall(VecGetOwnershipRange(state.U, &first, &last));
   group.assign(last - first, 0);
-  for (const Node &node : mesh.nodes)
+  node_of_row.assign(last - first, 0);
+  const auto classify = [&](PetscInt row, int kind, std::size_t node) {
+    if (row < first || row >= last) return; // prescribed, or another rank's
+    group[row - first] = static_cast<char>(kind);
+    node_of_row[row - first] = static_cast<int>(node);
+  };
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
     for (int i = 0; i < 3; ++i) {
-      const PetscInt u = to_global[node.displacement + i];
-      if (u >= first && u < last) group[u - first] = static_cast<char>(i);
-      const PetscInt lambda = node.traction < 0 ? -1 : to_global[node.traction + i];
-      if (lambda >= first && lambda < last) group[lambda - first] = static_cast<char>(3 + i);
+      const Node &node = mesh.nodes[n];
+      classify(to_global[node.displacement + i], i, n);
+      if (node.traction >= 0) classify(to_global[node.traction + i], 3 + i, n);
     }
   PetscCall(ISLocalToGlobalMappingRestoreIndices(mapping, &to_global));
 
@@ -123,17 +131,25 @@ PetscErrorCode Problem::LocalState(Vec U, Vec Udot) const
 PetscErrorCode Problem::AddResidual(double time, const double *U, const double *Udot, double *F, double *sizes)
 {
   PetscFunctionBeginUser;
+  PetscCall(PetscLogEventBegin(events.bulk_residual, 0, 0, 0, 0));
   bulk_failure = bulk->AddResidual(U, state.history, weights(time), F, sizes);
+  PetscCall(PetscLogEventEnd(events.bulk_residual, 0, 0, 0, 0));
   contact_failure.clear();
+  PetscCall(PetscLogEventBegin(events.contact_residual, 0, 0, 0, 0));
   if (contact) PetscCall(contact->AddResidual(frames(time, time - state.time), U, Udot, F, sizes, contact_failure));
+  PetscCall(PetscLogEventEnd(events.contact_residual, 0, 0, 0, 0));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode Problem::AddJacobian(double time, const double *U, const double *Udot, double shift, Mat A)
 {
   PetscFunctionBeginUser;
+  PetscCall(PetscLogEventBegin(events.bulk_jacobian, 0, 0, 0, 0));
   PetscCall(bulk->AddJacobian(U, state.history, weights(time), A, bulk_failure));
+  PetscCall(PetscLogEventEnd(events.bulk_jacobian, 0, 0, 0, 0));
+  PetscCall(PetscLogEventBegin(events.contact_jacobian, 0, 0, 0, 0));
   if (contact) PetscCall(contact->AddJacobian(frames(time, time - state.time), U, Udot, shift, A, contact_failure));
+  PetscCall(PetscLogEventEnd(events.contact_jacobian, 0, 0, 0, 0));
   PetscFunctionReturn(0);
 }
 

@@ -5,6 +5,7 @@
 #include "bulk/bulk.hpp"
 #include "contact/contact.hpp"
 #include "mesh/mesh.hpp"
+#include "solve/log_events.hpp"
 #include "solve/observer.hpp"
 #include "solve/state.hpp"
 #include "tribogel/scene/scene.hpp"
@@ -70,12 +71,14 @@ public:
   std::unique_ptr<Contact> contact; ///< null without a top specimen
   State state;
   SolveCounts counts;
+  LogEvents events;
   TsHandle ts;
   MatHandle jacobian;
 
   // What the last evaluation left for the convergence test and for messages.
   VecHandle magnitude, round_off; ///< global: sum of absolute forces; floor of their round-off
   std::vector<char> group;        ///< of each owned unknown
+  std::vector<int> node_of_row;   ///< index into mesh.nodes of each owned unknown
   BulkFailure bulk_failure;
   std::string contact_failure;
   WorstResidual worst;
@@ -87,6 +90,7 @@ public:
   PetscErrorCode SetStepTolerances();
 
 private:
+  PetscErrorCode LocateWorst(const double *f);
   PetscErrorCode SetUpFields();
   PetscErrorCode SetUpTs();
   PetscErrorCode RunPhase(int k);

@@ -125,6 +125,7 @@ PetscErrorCode Problem::AcceptStep(PetscReal time, Vec U)
   StepReport report;
   CellEnergy energy;
   PetscFunctionBeginUser;
+  PetscCall(PetscLogEventBegin(events.accept_step, 0, 0, 0, 0));
   const double step = time - state.time;
   if (U != static_cast<Vec>(state.U)) PetscCall(VecCopy(U, state.U));
   PetscCall(VecWAXPY(state.Udot, -1, before, U));
@@ -157,7 +158,10 @@ PetscErrorCode Problem::AcceptStep(PetscReal time, Vec U)
   counts.newton_iterations += report.newton_iterations;
   counts.linear_iterations += report.linear_iterations;
   PetscCall(SetStepTolerances());
+  PetscCall(PetscLogEventEnd(events.accept_step, 0, 0, 0, 0));
+  PetscCall(PetscLogEventBegin(events.observe, 0, 0, 0, 0));
   for (Observer *observer : watching) PetscCall(observer->Step(*this, report));
+  PetscCall(PetscLogEventEnd(events.observe, 0, 0, 0, 0));
   PetscFunctionReturn(0);
 }
 

@@ -1,7 +1,8 @@
 /// An initial gap: before the gels touch, N and T are exactly zero although the plate moves and turns; afterwards the
 /// state is that of the scene without a gap whose plate travelled the gap less. Exact for elastic gels at rest or in
 /// steady rotation, which remember no path.
-#include "uniform_compression.hpp"
+#include "scenes.hpp"
+#include "solver_options.hpp"
 
 namespace tribogel::test
 {

@@ -26,7 +26,7 @@ struct Case {
 
 Scene scene_of(const Case &c)
 {
-  Scene scene = paper_scene(5, c.order);
+  Scene scene = paper_scene(c.order == 1 ? 9 : 5, c.order); // as many nodes
   scene.bottom.radius = c.bottom_radius;
   scene.bottom.material = hyperelastic_gel(); // history on one side of the contact only
   scene.top.material.branches[0].deviatoric_viscosity = 2.7;
@@ -51,7 +51,8 @@ Values perturbed(const Probe &probe, double traction, std::mt19937 &random)
 /// Largest relative error of each row group over the directions.
 std::array<double, residual_groups> errors(Probe &probe, const Values &U, std::mt19937 &random)
 {
-  constexpr double h = 3e-5; // mm or MPa
+  const double h = getenv("VCH") ? atof(getenv("VCH")) : 3e-5; // mm or MPa
+  const Values floor = Probe::values(probe.problem.round_off);
   const std::vector<Values> J = probe.jacobian(U);
   const auto &group = probe.problem.group;
   Values size;
@@ -75,7 +76,7 @@ std::array<double, residual_groups> errors(Probe &probe, const Values &U, std::m
           product += J[i][j] * w[j];
           scale += std::abs(J[i][j] * w[j]);
         }
-        const double noise = 64 * std::numeric_limits<double>::epsilon() * size[i] / h;
+        const double noise = (64 * std::numeric_limits<double>::epsilon() * size[i] + 16 * floor[i]) / h;
         const double error = std::max(std::abs(product - slope[i]) - noise, 0.0);
         double &largest = worst[static_cast<std::size_t>(group[i])];
         largest = std::max(largest, error == 0 ? 0 : error / scale);
@@ -117,22 +118,22 @@ TEST_P(jacobian, OfOpenGels)
 
 TEST_P(jacobian, OfViscousFriction)
 {
-  check({GetParam(), 12.5, 0.03, {0, 0.07, 0.011}, {0, 1, 2}, 0.043, {true, false, true}}, 0.37);
+  check({GetParam(), 12.5, 0.03, {0, 0.07, 0.011}, {0, 1, 2}, 1.3, {true, false, true}}, 0.37);
 }
 
 TEST_P(jacobian, OfOpenStickingAndSlippingNodes)
 {
-  check({GetParam(), 12.5, 0.03, {0.33, 0.07}, {0, 1}, 0.043, {true, true, true}}, 0.37);
+  check({GetParam(), 12.5, 0.03, {0.83, 0.07}, {0, 1}, 1.3, {true, true, true}}, 0.37);
 }
 
 TEST_P(jacobian, OfALongStep)
 {
-  check({GetParam(), 12.5, 0.03, {0.33, 0.07}, {0, 1}, 0.043, {true, false, true}}, 23);
+  check({GetParam(), 12.5, 0.03, {0.83, 0.07}, {0, 1}, 1.3, {true, false, true}}, 23);
 }
 
 TEST_P(jacobian, OfAFaceThatHangsOverTheEdge)
 {
-  check({GetParam(), 9.7, 0.03, {0.33, 0.07}, {0, 1}, 0.043, {true, true, true}}, 0.37);
+  check({GetParam(), 9.7, 0.03, {0.83, 0.07}, {0, 1}, 1.3, {true, true, true}}, 0.37);
 }
 
 INSTANTIATE_TEST_SUITE_P(order, jacobian, ::testing::Values(1, 2));

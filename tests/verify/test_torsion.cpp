@@ -40,7 +40,7 @@ Reaction errors(int order, int elements, double bulk_over_shear, double lambda)
     const double approach = (1 - lambda) * height;
     scene.schedule = schedule_from_twists({2, 4}, {approach, approach}, {0, psi * height});
   }
-  const SolverOptions options(fixed_steps(1));
+  const SolverOptions options(fixed_steps(0.25));
   Problem problem;
   Recorder recorder("");
   run(scene, problem, recorder);
@@ -52,28 +52,27 @@ Reaction errors(int order, int elements, double bulk_over_shear, double lambda)
   return error;
 }
 
-void expect_error_of_shear_over_bulk_modulus(int order, double lambda)
+void expect_error_of_shear_over_bulk_modulus(int order, int elements, double lambda)
 {
-  for (int elements : {3, 6}) {
-    const Reaction e4 = errors(order, elements, 1e4, lambda), e5 = errors(order, elements, 1e5, lambda);
-    EXPECT_LT(std::abs(e4.T), 3e-5); // a few G/K
-    EXPECT_LT(std::abs(e4.N), 6e-4);
-    EXPECT_NEAR(e4.T / e5.T, 10, 0.1);
-    EXPECT_NEAR(e4.N / e5.N, 10, 0.1);
-  }
+  const Reaction e3 = errors(order, elements, 1e3, lambda), e4 = errors(order, elements, 1e4, lambda);
+  EXPECT_LT(std::abs(e4.T), 2e-5); // both a few G/K
+  EXPECT_LT(std::abs(e4.N), 5e-4);
+  EXPECT_NEAR(e3.T / e4.T, 10, 0.1);
+  EXPECT_NEAR(e3.N / e4.N, 10, 0.1);
 }
 
 } // namespace
 
 TEST(torsion, OfABondedCylinder)
 {
-  for (int order : {1, 2}) expect_error_of_shear_over_bulk_modulus(order, 1);
+  for (int order : {1, 2})
+    for (int elements : {3, 6}) expect_error_of_shear_over_bulk_modulus(order, elements, 1);
 }
 
 TEST(torsion, OfAStretchedCylinderBetweenLubricatedPlates)
 {
   for (int order : {1, 2})
-    for (double lambda : {0.8, 1.25}) expect_error_of_shear_over_bulk_modulus(order, lambda);
+    for (double lambda : {0.9, 1.12}) expect_error_of_shear_over_bulk_modulus(order, 3, lambda);
 }
 
 } // namespace tribogel::test

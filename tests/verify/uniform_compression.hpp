@@ -1,55 +1,14 @@
-/// Exact states of lubricated discs, and solver options for the length of a test.
+/// Exact states of lubricated discs.
 #pragma once
 
 #include "scenes.hpp"
+#include "solver_options.hpp"
 
 #include <cmath>
-#include <iomanip>
 #include <numbers>
-#include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace tribogel::test
 {
-
-inline std::string text_of(double x)
-{
-  std::ostringstream text;
-  text << std::setprecision(17) << x;
-  return text.str();
-}
-
-using OptionList = std::vector<std::pair<std::string, std::string>>;
-
-/// PETSc options that hold while this lives; a `Problem` reads them in SetUp.
-class SolverOptions
-{
-public:
-  explicit SolverOptions(OptionList given) : options(std::move(given))
-  {
-    for (const auto &[name, value] : options) PetscOptionsSetValue(nullptr, name.c_str(), value.c_str());
-  }
-  SolverOptions(const SolverOptions &) = delete;
-  SolverOptions &operator=(const SolverOptions &) = delete;
-  ~SolverOptions()
-  {
-    for (const auto &[name, value] : options) PetscOptionsClearValue(nullptr, name.c_str());
-  }
-
-private:
-  OptionList options;
-};
-
-/// Residuals over the forces that meet in them.
-inline OptionList newton_tolerance(double tolerance) { return {{"-snes_rtol", text_of(tolerance)}}; }
-
-/// Steps of equal size `dt` [s]; each phase still ends exactly.
-inline OptionList fixed_steps(double dt, double tolerance)
-{
-  return {{"-ts_adapt_type", "none"}, {"-ts_dt", text_of(dt)}, {"-snes_rtol", text_of(tolerance)}};
-}
 
 /// Homogeneous uniaxial compression of a hyperelastic cylinder with a free wall.
 struct UniaxialState {

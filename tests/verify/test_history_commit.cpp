@@ -1,0 +1,102 @@
+/// A rejected step leaves nothing behind: neither in the unknowns nor in the internal variables, energies or the start
+/// of the next step. A run whose steps fail (Newton's iterations run out) or are rejected (error estimate) is compared
+/// with one that takes the same accepted steps and rejects none.
+#include "probe.hpp"
+
+namespace tribogel::test
+{
+
+namespace
+{
+
+Scene scene_of(int order)
+{
+  Scene scene = paper_scene(4, order);
+  scene.friction = {{0, 0.013}, {0, 1}};
+  scene.schedule = schedule_from_rates({8}, {0.57}, {0.3});
+  return scene;
+}
+
+/// Makes TS take the listed steps.
+class Replay : public Observer
+{
+public:
+  explicit Replay(std::vector<HistoryRow> given) : rows(std::move(given)) {}
+  PetscErrorCode Start(Problem &) override { return 0; }
+  PetscErrorCode Step(Problem &problem, const StepReport &) override
+  {
+    ++taken;
+    if (taken + 1 < rows.size()) return TSSetTimeStep(problem.ts, rows[taken + 1].time - problem.state.time);
+    return 0;
+  }
+
+private:
+  std::vector<HistoryRow> rows;
+  std::size_t taken = 0;
+};
+
+void expect_same_end(const Problem &a, const Problem &b, double tolerance)
+{
+  const Values U = Probe::values(a.state.U), V = Probe::values(b.state.U);
+  ASSERT_EQ(U.size(), V.size());
+  ASSERT_EQ(a.state.history.size(), b.state.history.size());
+  double difference = 0, strain = 0;
+  for (std::size_t k = 0; k < U.size(); ++k) difference = std::max(difference, std::abs(U[k] - V[k]));
+  for (std::size_t k = 0; k < a.state.history.size(); ++k)
+    strain = std::max(strain, std::abs(a.state.history[k] - b.state.history[k]));
+  if (getenv("VC")) printf("VC dU %.2e dhistory %.2e rejected %d failed %d steps %d\n", difference, strain, (int)a.counts.rejected_steps, (int)a.counts.failed_solves, (int)a.counts.accepted_steps);
+  EXPECT_LE(difference, tolerance);
+  EXPECT_LE(strain, tolerance);
+  EXPECT_NEAR(a.state.dissipated, b.state.dissipated, tolerance * b.state.dissipated);
+  EXPECT_GT(b.state.dissipated, 1e-3);
+}
+
+} // namespace
+
+TEST(history_commit, AFailedSolveLeavesNothingBehind)
+{
+  for (int order : {1, 2}) {
+    Problem failing, smooth;
+    Recorder with(""), without("");
+    {
+      const Options options({{"-ts_adapt_type", "none"}, {"-ts_dt", "8"}, {"-snes_max_it", "4"}});
+      run(scene_of(order), failing, with);
+    }
+    EXPECT_GE(failing.counts.failed_solves, 1);
+    ASSERT_GE(with.rows.size(), 3u);
+    const double step = with.rows[1].step; // 8 s quartered once or more
+    EXPECT_LT(step, 8);
+    {
+      const Options options({{"-ts_adapt_type", "none"}, {"-ts_dt", std::to_string(step)}, {"-snes_max_it", "4"}});
+      run(scene_of(order), smooth, without);
+    }
+    EXPECT_EQ(smooth.counts.failed_solves, 0);
+    ASSERT_EQ(with.rows.size(), without.rows.size());
+    expect_same_end(failing, smooth, 0);
+  }
+}
+
+TEST(history_commit, AStepRejectedForItsErrorLeavesNothingBehind)
+{
+  Problem adaptive, replayed;
+  Recorder with(""), without("");
+  const Options tight({{"-snes_rtol", "1e-13"}, {"-ts_dt", "0.5"}});
+  {
+    const Options options({{"-ts_atol", "3e-3"}});
+    run(scene_of(2), adaptive, with);
+  }
+  EXPECT_GE(adaptive.counts.rejected_steps, 1);
+  const Options options({{"-ts_adapt_type", "none"}, {"-ts_dt", std::to_string(with.rows[1].time)}});
+  Replay replay(with.rows);
+  bool completed = false;
+  std::string why;
+  ASSERT_EQ(replayed.SetUp(PETSC_COMM_WORLD, scene_of(2)), 0);
+  ASSERT_EQ(replayed.Run({&without, &replay}, completed, why), 0);
+  ASSERT_TRUE(completed) << why;
+  EXPECT_EQ(replayed.counts.rejected_steps, 0);
+  ASSERT_EQ(with.rows.size(), without.rows.size());
+  for (std::size_t k = 0; k < with.rows.size(); ++k) EXPECT_NEAR(with.rows[k].time, without.rows[k].time, 1e-12);
+  expect_same_end(adaptive, replayed, 1e-11);
+}
+
+} // namespace tribogel::test
