@@ -46,8 +46,8 @@ public:
   {
     for (const CellData &c : cells) {
       typename Element::template Vector<double> R;
-      const PointStatus status = Element::residual(kinematics, c.cell, material[c.body], gather(c, U),
-                                                   history.data() + c.history, step, R);
+      const PointStatus status =
+          Element::residual(kinematics, c.cell, material[c.body], gather(c, U), history.data() + c.history, step, R);
       if (status != PointStatus::ok) return failure_of(c, status);
       for (int k = 0; k < dofs; ++k) {
         F[c.dof[k]] += R[k];
@@ -64,8 +64,8 @@ public:
     for (const CellData &c : cells) {
       typename Element::template Vector<double> R;
       typename Element::Matrix K;
-      const PointStatus status = Element::tangent(kinematics, c.cell, material[c.body], gather(c, U),
-                                                  history.data() + c.history, step, R, K);
+      const PointStatus status =
+          Element::tangent(kinematics, c.cell, material[c.body], gather(c, U), history.data() + c.history, step, R, K);
       if (status != PointStatus::ok) {
         failure = failure_of(c, status);
         break;
@@ -123,9 +123,9 @@ public:
 private:
   struct CellData {
     int body;
-    std::array<PetscInt, dofs> dof;  ///< offsets in a local vector
+    std::array<PetscInt, dofs> dof; ///< offsets in a local vector
     std::array<double, 2> centre;
-    std::size_t history;             ///< offset of its first point
+    std::size_t history; ///< offset of its first point
     CellType cell;
   };
 
@@ -151,8 +151,8 @@ template <int order> PetscErrorCode CreateBulk(const Mesh &mesh, const Scene &sc
 {
   const Viscoelastic<double> materials[2] = {scene.bottom.material, scene.top.material};
   PetscFunctionBeginUser;
-  auto made = std::make_unique<BulkOf<AxisymmetricTorsion, order>>(
-      mesh, AxisymmetricTorsion{scene.twist_length()}, materials);
+  auto made =
+      std::make_unique<BulkOf<AxisymmetricTorsion, order>>(mesh, AxisymmetricTorsion{scene.twist_length()}, materials);
   PetscCheck(made->sound, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "the mesh has a degenerate cell");
   bulk = std::move(made);
   PetscFunctionReturn(0);

@@ -46,11 +46,10 @@ PetscErrorCode Contact::SetUp(MPI_Comm on, const Mesh &both, const Scene &scene)
   friction = scene.friction;
   parameters.order = mesh->order;
   parameters.twist_length = scene.twist_length();
-  parameters.softer_modulus = std::min(scene.top.material.equilibrium.shear_modulus(),
-                                       scene.bottom.material.equilibrium.shear_modulus());
+  parameters.softer_modulus =
+      std::min(scene.top.material.equilibrium.shear_modulus(), scene.bottom.material.equilibrium.shear_modulus());
   for (const SurfaceNode &node : mesh->slave.node) parameters.carries_multiplier.push_back(node.multiplier);
-  contact = AxisymmetricContact(
-      ContactGeometry(reference_of(mesh->slave), reference_of(mesh->master), parameters));
+  contact = AxisymmetricContact(ContactGeometry(reference_of(mesh->slave), reference_of(mesh->master), parameters));
   const auto nodes = static_cast<int>(mesh->slave.node.size());
   first = static_cast<int>(static_cast<long>(nodes) * rank / size);
   last = static_cast<int>(static_cast<long>(nodes) * (rank + 1) / size);

@@ -76,9 +76,13 @@ std::vector<MeridianBlock> meridian_blocks(const Scene &scene)
   if (mesh.bottom_elements_radial > 0)
     bottom_spacing = spacing_of(leading.radius, mesh.bottom_elements_radial, mesh.grading);
   const double rim = std::min(leading.radius, bottom.radius);
-  MeridianBlock lower{bottom_body, points_between(0, rim, false, true, bottom_spacing),
-                      points_between(-bottom.height, 0, true, true, bottom_spacing), Side::axis, Side::wall,
-                      Side::bottom_plate, scene.has_top ? Side::master : Side::top_plate};
+  MeridianBlock lower{bottom_body,
+                      points_between(0, rim, false, true, bottom_spacing),
+                      points_between(-bottom.height, 0, true, true, bottom_spacing),
+                      Side::axis,
+                      Side::wall,
+                      Side::bottom_plate,
+                      scene.has_top ? Side::master : Side::top_plate};
   if (bottom.radius > rim) {
     const std::vector<double> overhang = points_between(rim, bottom.radius, true, true, bottom_spacing);
     lower.R.insert(lower.R.end(), overhang.begin() + 1, overhang.end());
@@ -87,8 +91,8 @@ std::vector<MeridianBlock> meridian_blocks(const Scene &scene)
 
   if (scene.has_top)
     blocks.push_back({top_body, points_between(0, scene.top.radius, false, true, s),
-                      points_between(scene.initial_gap, scene.initial_gap + scene.top.height, true, true, s), Side::axis,
-                      Side::wall, Side::slave, Side::top_plate});
+                      points_between(scene.initial_gap, scene.initial_gap + scene.top.height, true, true, s),
+                      Side::axis, Side::wall, Side::slave, Side::top_plate});
   return blocks;
 }
 

@@ -13,13 +13,13 @@ namespace tribogel
 
 /// A place on this rank that carries displacement unknowns.
 struct Node {
-  PetscInt point;                ///< in the DMPlex
-  std::array<double, 2> X;       ///< reference (R, Z) [mm]
-  PetscInt displacement;         ///< offset of its three displacements in a local vector
-  PetscInt traction = -1;        ///< offset of its three multiplier components, -1 without
-  int body;                      ///< bottom_body or top_body
-  unsigned sides = 0;            ///< bit k: lies on Side k
-  bool owned;                    ///< by this rank
+  PetscInt point;          ///< in the DMPlex
+  std::array<double, 2> X; ///< reference (R, Z) [mm]
+  PetscInt displacement;   ///< offset of its three displacements in a local vector
+  PetscInt traction = -1;  ///< offset of its three multiplier components, -1 without
+  int body;                ///< bottom_body or top_body
+  unsigned sides = 0;      ///< bit k: lies on Side k
+  bool owned;              ///< by this rank
 
   bool on(Side side) const { return sides >> static_cast<int>(side) & 1u; }
 };
@@ -32,7 +32,7 @@ struct MeshCell {
 /// A node of a contact surface, the same on every rank. Global indices are those of the solution vector, negative where
 /// a component is prescribed or absent.
 struct SurfaceNode {
-  std::array<double, 2> X;                       ///< reference (R, Z) [mm]
+  std::array<double, 2> X;                        ///< reference (R, Z) [mm]
   std::array<PetscInt, 3> displacement, traction; ///< global indices
   bool multiplier;
   int local; ///< index into Mesh::nodes on the rank that owns the node, -1 elsewhere

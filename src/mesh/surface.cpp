@@ -117,8 +117,8 @@ PetscErrorCode GatherSurface(const Mesh &mesh, Side side, SurfaceChain &chain)
     chain.node[place->second].local = static_cast<int>(n);
   }
   PetscCall(ISLocalToGlobalMappingRestoreIndices(mapping, &to_global));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<PetscMPIInt>(numbers.size()), MPIU_INT, MPI_MAX,
-                             comm));
+  PetscCallMPI(
+      MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<PetscMPIInt>(numbers.size()), MPIU_INT, MPI_MAX, comm));
   for (std::size_t n = 0; n < chain.node.size(); ++n) {
     for (int i = 0; i < 3; ++i) {
       chain.node[n].displacement[i] = numbers[7 * n + i];

@@ -30,7 +30,7 @@ struct ProfileRow {
   double reference_r, reference_z; ///< [mm]; the reference angle is 0
   double r, theta, z;              ///< [mm], [rad]
   double pressure = undefined, traction_radial = undefined, traction_circumferential = undefined; ///< Cauchy [MPa]
-  double sliding_velocity = undefined; ///< [mm/s]
+  double sliding_velocity = undefined;                                                            ///< [mm/s]
   double mu = undefined;
   const char *status = "";
 };

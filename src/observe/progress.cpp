@@ -31,12 +31,15 @@ std::string Progress::estimate_left(double time) const
 void Progress::show(const HistoryRow &row)
 {
   const bool ends = row.report.ends_phase;
-  if (!speaks || !(terminal || ends)) return;
+  constexpr double redraw = 0.2; // seconds: a quick run makes hundreds of steps in one
+  if (!speaks || !(ends || (terminal && MPI_Wtime() - drawn > redraw))) return;
+  drawn = MPI_Wtime();
   const Measurement &m = row.measurement;
-  std::printf("%sphase %d/%zu  t = %-10.6g s  step %-9.3g s  %2d Newton  N = %-10.6g N  T = %-11.6g N mm  mu = %-10.4g%s%s",
-              terminal ? "\r" : "", row.phase, schedule.size(), row.time, row.step,
-              static_cast<int>(row.report.newton_iterations), m.normal_force, m.torque, m.mu_pressure_weighted,
-              ends ? "                     " : estimate_left(row.time).c_str(), ends ? "\n" : "  ");
+  std::printf(
+      "%sphase %d/%zu  t = %-10.6g s  step %-9.3g s  %2d Newton  N = %-10.6g N  T = %-11.6g N mm  mu = %-10.4g%s%s",
+      terminal ? "\r" : "", row.phase, schedule.size(), row.time, row.step,
+      static_cast<int>(row.report.newton_iterations), m.normal_force, m.torque, m.mu_pressure_weighted,
+      ends ? "                     " : estimate_left(row.time).c_str(), ends ? "\n" : "  ");
   std::fflush(stdout);
 }
 
@@ -48,13 +51,14 @@ void Progress::finish(const Recorder &recorder, const SolveCounts &counts, const
               "radius mm", "mu apparent", "mu weighted");
   for (const PhaseEnd &end : recorder.phases) {
     const Measurement &m = end.measurement;
-    std::printf("%5d %10.6g %12.6g %12.7g %14.7g %12.6g %13.6g %13.6g\n", end.phase, end.time, end.rate,
-                m.normal_force, m.torque, m.contact_radius, m.mu_apparent, m.mu_pressure_weighted);
+    std::printf("%5d %10.6g %12.6g %12.7g %14.7g %12.6g %13.6g %13.6g\n", end.phase, end.time, end.rate, m.normal_force,
+                m.torque, m.contact_radius, m.mu_apparent, m.mu_pressure_weighted);
   }
-  std::printf("\n%d steps (%d rejected, %d failed solves), %d Newton iterations, %.1f CPU s, %.1f s, %.0f MB on %d rank%s\n",
-              static_cast<int>(counts.accepted_steps), static_cast<int>(counts.rejected_steps),
-              static_cast<int>(counts.failed_solves), static_cast<int>(counts.newton_iterations), cost.cpu_seconds,
-              cost.wall_seconds, cost.peak_memory_MB, cost.ranks, cost.ranks == 1 ? "" : "s");
+  std::printf(
+      "\n%d steps (%d rejected, %d failed solves), %d Newton iterations, %.1f CPU s, %.1f s, %.0f MB on %d rank%s\n",
+      static_cast<int>(counts.accepted_steps), static_cast<int>(counts.rejected_steps),
+      static_cast<int>(counts.failed_solves), static_cast<int>(counts.newton_iterations), cost.cpu_seconds,
+      cost.wall_seconds, cost.peak_memory_MB, cost.ranks, cost.ranks == 1 ? "" : "s");
   std::printf("%s %s\n", outcome.status == 0 ? "complete; files in" : "NOT complete; what there is, in",
               directory.c_str());
 }

@@ -19,7 +19,7 @@ private:
 
   Schedule schedule;
   bool speaks, terminal;
-  double start;
+  double start, drawn = 0;
 };
 
 } // namespace tribogel

@@ -104,8 +104,7 @@ PetscErrorCode Recorder::Record(Problem &problem, const StepReport &report)
   if (report.ends_phase) {
     last_profile = std::move(surfaces);
     phases.push_back({row.phase, row.time, row.approach, row.rotation, row.rate, row.measurement,
-                      displacement_at(last_profile, 0),
-                      displacement_at(last_profile, row.measurement.contact_radius)});
+                      displacement_at(last_profile, 0), displacement_at(last_profile, row.measurement.contact_radius)});
     write_profile(row.time, row.phase);
   }
   if (on_row) on_row(row);

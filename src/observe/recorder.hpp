@@ -1,5 +1,5 @@
-/// Measures each accepted step and writes history.csv (a row a step) and profile.csv (the surfaces at each phase's end).
-/// Rows are flushed as they come, so that nothing is lost when a run dies.
+/// Measures each accepted step and writes history.csv (a row a step) and profile.csv (the surfaces at each phase's
+/// end). Rows are flushed as they come, so that nothing is lost when a run dies.
 #pragma once
 
 #include "observe/measure.hpp"
@@ -15,7 +15,8 @@ struct PhaseEnd {
   int phase; ///< counted from 1
   double time, approach, rotation, rate;
   Measurement measurement;
-  double centre_displacement, rim_displacement; ///< of the bottom surface, down, at the axis and at the contact radius [mm]
+  double centre_displacement,
+      rim_displacement; ///< of the bottom surface, down, at the axis and at the contact radius [mm]
 };
 
 /// One accepted step as the files and the console show it.
@@ -37,8 +38,8 @@ public:
 
   std::vector<HistoryRow> rows;
   std::vector<PhaseEnd> phases;
-  std::vector<ProfileRow> last_profile;                  ///< at the end of the last completed phase
-  std::function<void(const HistoryRow &)> on_row = {};   ///< e.g. the progress line
+  std::vector<ProfileRow> last_profile;                ///< at the end of the last completed phase
+  std::function<void(const HistoryRow &)> on_row = {}; ///< e.g. the progress line
 
 private:
   PetscErrorCode Record(Problem &problem, const StepReport &report);

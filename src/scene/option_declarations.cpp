@@ -210,7 +210,7 @@ OptionGroup discretisation_group()
             .range = {1, 1e6}},
            {.name = "-mesh_grading",
             .kind = OptionKind::real,
-            .fallback = "8",
+            .fallback = "4",
             .unit = "-",
             .meaning = "largest over smallest element edge; small ones go to the plates' and the contact's rims",
             .source = "own",

@@ -94,8 +94,8 @@ PetscErrorCode StartIteration(SNES snes, PetscInt)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Converged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal norm, SNESConvergedReason *reason,
-                         void *context)
+PetscErrorCode Converged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal norm,
+                         SNESConvergedReason *reason, void *context)
 {
   auto &problem = *static_cast<Problem *>(context);
   PetscInt most;

@@ -23,26 +23,26 @@ PetscErrorCode Problem::LocateWorst(const double *f)
   struct {
     double size;
     int rank;
-  } largest{-1, 0};
+  } peak{-1, 0};
   std::size_t place = 0;
   PetscMPIInt rank;
   PetscFunctionBeginUser;
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm)));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  largest.rank = rank;
+  peak.rank = rank;
   for (std::size_t k = 0; k < group.size(); ++k)
-    if (group[k] == worst.group && std::abs(f[k]) > largest.size) {
-      largest.size = std::abs(f[k]);
+    if (group[k] == worst.group && std::abs(f[k]) > peak.size) {
+      peak.size = std::abs(f[k]);
       place = k;
     }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm));
-  if (rank == largest.rank) {
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &peak, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm));
+  if (rank == peak.rank) {
     const Node &node = mesh.nodes[node_of_row[place]];
     worst.X = node.X;
     worst.body = node.body;
   }
-  PetscCallMPI(MPI_Bcast(worst.X.data(), 2, MPI_DOUBLE, largest.rank, comm));
-  PetscCallMPI(MPI_Bcast(&worst.body, 1, MPI_INT, largest.rank, comm));
+  PetscCallMPI(MPI_Bcast(worst.X.data(), 2, MPI_DOUBLE, peak.rank, comm));
+  PetscCallMPI(MPI_Bcast(&worst.body, 1, MPI_INT, peak.rank, comm));
   PetscFunctionReturn(0);
 }
 

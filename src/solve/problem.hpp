@@ -20,8 +20,10 @@ namespace tribogel
 /// Residuals are judged by group: three displacement and three traction components, each against the sum of the
 /// absolute forces that meet in it.
 inline constexpr int residual_groups = 6;
-inline constexpr const char *group_names[residual_groups] = {"radial force",   "circumferential force",
-                                                             "axial force",    "radial contact condition",
+inline constexpr const char *group_names[residual_groups] = {"radial force",
+                                                             "circumferential force",
+                                                             "axial force",
+                                                             "radial contact condition",
                                                              "circumferential contact condition",
                                                              "axial contact condition"};
 
@@ -62,7 +64,7 @@ public:
   void SetBoundary(double time, double *U, double *Udot) const;
 
   const Phase &phase() const { return scene.schedule[state.phase]; }
-  PlateFrames frames(double time, double step) const; ///< at `time`, for a step of that length
+  PlateFrames frames(double time, double step) const;                       ///< at `time`, for a step of that length
   StepWeights weights(double time) const { return {time - state.time, 0}; } ///< backward Euler
 
   Scene scene;
@@ -97,7 +99,7 @@ private:
   std::string Explain(TSConvergedReason reason) const;
 
   std::vector<Observer *> watching;
-  VecHandle before;          ///< U at the start of the step
+  VecHandle before; ///< U at the start of the step
   VecHandle step_tolerance;
   std::array<double, residual_groups> largest{}; ///< |U| per group so far
   friend PetscErrorCode PreStep(TS);

@@ -101,8 +101,8 @@ PetscErrorCode Problem::SetStepTolerances()
   for (int g = 0; g < residual_groups; ++g) {
     const int field = g / 3 * 3;
     const double in_plane = std::max(largest[field], largest[field + 2]), turning = largest[field + 1];
-    const double size = g == field + 1 ? std::max(turning, negligible * in_plane)
-                                       : std::max(in_plane, negligible * turning);
+    const double size =
+        g == field + 1 ? std::max(turning, negligible * in_plane) : std::max(in_plane, negligible * turning);
     scale[g] = size > 0 ? size * std::sqrt(sums[residual_groups + g] / count) : PETSC_MAX_REAL;
   }
   PetscCall(TSGetTolerances(ts, &fraction, nullptr, nullptr, nullptr));
@@ -237,9 +237,9 @@ std::string Problem::Explain(TSConvergedReason reason) const
   else if (!contact_failure.empty())
     text << ": " << contact_failure;
   else if (worst.group >= 0)
-    text << ": Newton's " << group_names[worst.group] << " stays at " << worst.ratio << " times its tolerance near R = "
-         << worst.X[0] << " mm, Z = " << worst.X[1] << " mm of the " << (worst.body == top_body ? "top" : "bottom")
-         << " gel";
+    text << ": Newton's " << group_names[worst.group] << " stays at " << worst.ratio
+         << " times its tolerance near R = " << worst.X[0] << " mm, Z = " << worst.X[1] << " mm of the "
+         << (worst.body == top_body ? "top" : "bottom") << " gel";
   text << " (" << TSConvergedReasons[reason] << ")";
   return text.str();
 }

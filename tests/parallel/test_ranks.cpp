@@ -63,11 +63,11 @@ TEST_P(ranks, GiveTheNumbersOfOne)
   EXPECT_GT(one.rows.back().measurement.torque, 1e-3 * N * scene.top.radius);
   EXPECT_LE(dN, 1e-10 * N);
   EXPECT_LE(dT, 1e-10 * N * scene.top.radius);
-  if (getenv("VC") && single.scene.top.radius > 0) printf("VC order %d mu0 %g dN/N %.2e dT/NR %.2e N %g T %g\n", order, mu_0, dN/N, dT/N/scene.top.radius, N, one.rows.back().measurement.torque);
 }
 
 INSTANTIATE_TEST_SUITE_P(scenes, ranks,
-                         ::testing::Values(std::pair{1, 0.0}, std::pair{2, 0.0}, std::pair{1, 0.07}, std::pair{2, 0.07}));
+                         ::testing::Values(std::pair{1, 0.0}, std::pair{2, 0.0}, std::pair{1, 0.07},
+                                           std::pair{2, 0.07}));
 
 /// Each cell and each unknown has one rank; the load is shared.
 TEST(ranks_partition, SharesTheCellsOut)
@@ -88,7 +88,6 @@ TEST(ranks_partition, SharesTheCellsOut)
   EXPECT_EQ(shared.mesh.unknowns, single.mesh.unknowns);
   EXPECT_LE(unknowns, (size == 1 ? 1 : 1.2 / size) * single.mesh.unknowns);
   EXPECT_GE(unknowns, 0.8 / size * single.mesh.unknowns);
-  if (getenv("VC")) printf("VC size %d cells %d of %d unknowns %g of %d slave nodes here %d\n", size, mine, all, unknowns, (int)single.mesh.unknowns, (int)std::count_if(shared.mesh.slave.node.begin(), shared.mesh.slave.node.end(), [](auto&n){return n.local>=0;}));
 }
 
 /// The contact surfaces are the same list on every rank, and every node of theirs has one owner.
@@ -97,8 +96,8 @@ TEST(ranks_partition, KnowsTheContactSurfacesEverywhere)
   Problem shared, single;
   ASSERT_EQ(shared.SetUp(PETSC_COMM_WORLD, scene_of(2, 0)), 0);
   ASSERT_EQ(single.SetUp(PETSC_COMM_SELF, scene_of(2, 0)), 0);
-  for (const auto &[many, one] : {std::pair{&shared.mesh.slave, &single.mesh.slave},
-                                  std::pair{&shared.mesh.master, &single.mesh.master}}) {
+  for (const auto &[many, one] :
+       {std::pair{&shared.mesh.slave, &single.mesh.slave}, std::pair{&shared.mesh.master, &single.mesh.master}}) {
     ASSERT_EQ(many->node.size(), one->node.size());
     ASSERT_EQ(many->facet.size(), one->facet.size());
     for (std::size_t n = 0; n < one->node.size(); ++n) {

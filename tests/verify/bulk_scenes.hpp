@@ -1,40 +1,13 @@
-/// One gel between two plates, without contact: scenes, solver options and meshes for the tests of the bulk.
+/// One gel between two plates, without contact: scenes and meshes for the tests of the bulk.
 #pragma once
 
 #include "scenes.hpp"
+#include "solver_options.hpp"
 
 #include <cmath>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace tribogel::test
 {
-
-/// PETSc options for the problems that are set up while this lives.
-class SolverOptions
-{
-public:
-  explicit SolverOptions(std::vector<std::pair<std::string, std::string>> given) : options(std::move(given))
-  {
-    for (const auto &[name, text] : options) EXPECT_EQ(PetscOptionsSetValue(nullptr, name.c_str(), text.c_str()), 0);
-  }
-  SolverOptions(const SolverOptions &) = delete;
-  SolverOptions &operator=(const SolverOptions &) = delete;
-  ~SolverOptions()
-  {
-    for (const auto &option : options) EXPECT_EQ(PetscOptionsClearValue(nullptr, option.first.c_str()), 0);
-  }
-
-private:
-  std::vector<std::pair<std::string, std::string>> options;
-};
-
-/// Steps of the given size [s] and Newton down to round-off.
-inline std::vector<std::pair<std::string, std::string>> fixed_steps(double dt)
-{
-  return {{"-ts_adapt_type", "none"}, {"-ts_dt", std::to_string(dt)}, {"-snes_rtol", "1e-13"}};
-}
 
 /// Incompressible as bulk_over_shear grows; [MPa].
 inline Viscoelastic<double> neo_hookean(double G, double bulk_over_shear)

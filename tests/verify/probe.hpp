@@ -153,7 +153,8 @@ private:
     bool covered = true;
     PetscFunctionBeginUser;
     PetscCall(LocalState(U, u, rate));
-    if (problem.contact) PetscCall(problem.contact->UpdateCandidates(problem.frames(time, 1 / shift), u.data(), covered));
+    if (problem.contact)
+      PetscCall(problem.contact->UpdateCandidates(problem.frames(time, 1 / shift), u.data(), covered));
     if (!covered) PetscCall(problem.BuildMatrix());
     PetscCall(MatZeroEntries(problem.jacobian));
     PetscCall(problem.AddJacobian(time, u.data(), rate.data(), shift, problem.jacobian));

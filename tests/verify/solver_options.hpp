@@ -43,7 +43,10 @@ inline std::string text_of(double x)
 }
 
 /// Residuals over the forces that meet in them.
-inline OptionList newton_tolerance(double tolerance) { return {{"-snes_rtol", text_of(tolerance)}}; }
+inline OptionList newton_tolerance(double tolerance)
+{
+  return {{"-snes_rtol", text_of(tolerance)}};
+}
 
 /// Steps of equal size `dt` [s]; each phase still ends exactly.
 inline OptionList fixed_steps(double dt, double tolerance)

@@ -5,6 +5,8 @@
 /// machine epsilon times K/p, 1e-13, times ten.
 #include "uniform_compression.hpp"
 
+#include <algorithm>
+
 namespace tribogel::test
 {
 
@@ -56,9 +58,6 @@ void expect_uniform(const Problem &problem, const Recorder &recorder, const Unia
   EXPECT_NEAR(m.normal_force / N, 1, round_off);
   EXPECT_NEAR(m.contact_force / N, 1, round_off);
   EXPECT_NEAR(m.contact_radius / radius, 1, round_off);
-  std::cout << "[  numbers ] order " << scene.mesh.element_order << ": u " << worst << " p " << pressure << " shear "
-            << shear << " z " << flatness << " N " << m.normal_force / N - 1 << " newton "
-            << problem.counts.newton_iterations << " steps " << problem.counts.accepted_steps << std::endl;
 }
 
 /// One gel in both discs, of different heights: no radial sliding, so friction has nothing to do.
@@ -91,8 +90,8 @@ void two_gels(int order, double top_stiffness)
   const UniaxialState state[2] = {uniaxial_state_under(scene.bottom.material.equilibrium, p),
                                   uniaxial_state_under(scene.top.material.equilibrium, p)};
   scene.bottom.radius = scene.top.radius * state[top_body].lateral / state[bottom_body].lateral;
-  const double approach = scene.top.height * (1 - state[top_body].axial) +
-                          scene.bottom.height * (1 - state[bottom_body].axial);
+  const double approach =
+      scene.top.height * (1 - state[top_body].axial) + scene.bottom.height * (1 - state[bottom_body].axial);
   scene.schedule = schedule_from_rates({6}, {approach}, {0});
   Problem problem;
   Recorder recorder("");
@@ -102,9 +101,15 @@ void two_gels(int order, double top_stiffness)
 
 } // namespace
 
-TEST(contact_patch, UniformWithoutFrictionOrder1) { one_gel(1, {}); }
+TEST(contact_patch, UniformWithoutFrictionOrder1)
+{
+  one_gel(1, {});
+}
 
-TEST(contact_patch, UniformWithoutFrictionOrder2) { one_gel(2, {}); }
+TEST(contact_patch, UniformWithoutFrictionOrder2)
+{
+  one_gel(2, {});
+}
 
 TEST(contact_patch, UniformWithViscousFriction)
 {

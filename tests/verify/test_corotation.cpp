@@ -3,6 +3,9 @@
 /// rotation gives the same torque whether the bottom plate stands still or both turn.
 #include "scenes.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace tribogel::test
 {
 
@@ -45,8 +48,6 @@ void expect_no_effect(const PolynomialFriction<double> &friction)
   EXPECT_LE(force, 1e-13);
   EXPECT_LE(torque, 1e-15);
   EXPECT_LE(slip, 1e-15);
-  std::cout << "[  numbers ] N " << force << " T " << torque << " slip " << slip << " rows " << with.rows.size()
-            << std::endl;
 }
 
 void expect_same_relative_rotation(const PolynomialFriction<double> &friction)
@@ -60,20 +61,30 @@ void expect_same_relative_rotation(const PolynomialFriction<double> &friction)
   ASSERT_GT(a.torque, 1e-4 * a.normal_force);
   EXPECT_NEAR(b.torque / a.torque, 1, 1e-9); // Newton's tolerance: the iterations differ in their round-off
   EXPECT_NEAR(b.normal_force / a.normal_force, 1, 1e-9);
-  std::cout << "[  numbers ] relative: T " << b.torque / a.torque - 1 << " N " << b.normal_force / a.normal_force - 1
-            << std::endl;
 }
 
 const PolynomialFriction<double> viscous{{8e-4}, {1}}, coulomb{{2.6e-4, 1e-5}, {0, 2}};
 
 } // namespace
 
-TEST(corotation, HundredsOfTurnsUnderLoadLeaveNoTraceViscous) { expect_no_effect(viscous); }
+TEST(corotation, HundredsOfTurnsUnderLoadLeaveNoTraceViscous)
+{
+  expect_no_effect(viscous);
+}
 
-TEST(corotation, HundredsOfTurnsUnderLoadLeaveNoTraceCoulomb) { expect_no_effect(coulomb); }
+TEST(corotation, HundredsOfTurnsUnderLoadLeaveNoTraceCoulomb)
+{
+  expect_no_effect(coulomb);
+}
 
-TEST(corotation, OnlyTheRelativeRotationMattersViscous) { expect_same_relative_rotation(viscous); }
+TEST(corotation, OnlyTheRelativeRotationMattersViscous)
+{
+  expect_same_relative_rotation(viscous);
+}
 
-TEST(corotation, OnlyTheRelativeRotationMattersCoulomb) { expect_same_relative_rotation(coulomb); }
+TEST(corotation, OnlyTheRelativeRotationMattersCoulomb)
+{
+  expect_same_relative_rotation(coulomb);
+}
 
 } // namespace tribogel::test

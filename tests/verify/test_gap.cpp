@@ -4,6 +4,9 @@
 #include "scenes.hpp"
 #include "solver_options.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace tribogel::test
 {
 
@@ -53,9 +56,6 @@ TEST(gap, NothingBeforeTouchAndTheSameStateAfterwards)
       const Measurement &a = with.phases[k].measurement, &b = without.phases[k].measurement;
       EXPECT_NEAR(a.normal_force / b.normal_force, 1, 1e-8);
       EXPECT_NEAR(a.contact_radius / b.contact_radius, 1, 1e-8);
-      std::cout << "[  numbers ] order " << order << " N " << a.normal_force / b.normal_force - 1 << " a "
-                << a.contact_radius / b.contact_radius - 1 << " T " << a.torque << " " << b.torque << " before " << before
-                << std::endl;
     }
     const double T = without.phases[2].measurement.torque;
     ASSERT_GT(T, 0.01);
@@ -66,7 +66,6 @@ TEST(gap, NothingBeforeTouchAndTheSameStateAfterwards)
       place = std::max(place, std::hypot(a.r - b.r, a.z - b.z));
       if (!std::isnan(b.pressure)) pressure = std::max(pressure, std::abs(a.pressure - b.pressure));
     }
-    std::cout << "[  numbers ] place " << place << " pressure " << pressure << std::endl;
     EXPECT_LE(place, 1e-8 * 10);
     EXPECT_LE(pressure, 1e-8);
   }

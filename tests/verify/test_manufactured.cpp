@@ -29,9 +29,9 @@ constexpr double a = 4.5, height = 3;
 using Plane = std::array<double, 2>;
 using Field = AxisymmetricTorsion::Field<double>;
 
-/// Unknowns (u_R, L phi, u_Z) and their gradients. On the axis u_R is odd in R, the others even. u_R and u_Z come from a
-/// stream function, so that the volume changes in second order only: with K/G = 20 more would mean pressures far above
-/// G, under which the dead load has no unique solution.
+/// Unknowns (u_R, L phi, u_Z) and their gradients. On the axis u_R is odd in R, the others even. u_R and u_Z come from
+/// a stream function, so that the volume changes in second order only: with K/G = 20 more would mean pressures far
+/// above G, under which the dead load has no unique solution.
 Field exact_field(const Plane &X)
 {
   using D = Dual<2>;
@@ -73,17 +73,18 @@ template <int order> void add_load(const Problem &problem, double *load)
 {
   const AxisymmetricTorsion kinematics{problem.scene.twist_length()};
   const Viscoelastic<double> &material = problem.scene.bottom.material;
-  integrate<order>(problem.mesh, [&](const MeshCell &cell, const auto &N, const auto &dN, const Plane &X, double weight) {
-    const Field field = exact_field(X);
-    const Matrix3<double> F = kinematics.deformation(X, field);
-    const Response<double> response = material.evaluate(F, {}, {0}, nullptr, false);
-    ASSERT_EQ(response.status, PointStatus::ok);
-    const Matrix3<double> P = from_mandel(response.tau) * F.inverse().transpose();
-    for (std::size_t n = 0; n < N.size(); ++n)
-      for (int i = 0; i < 3; ++i)
-        load[problem.mesh.nodes[cell.node[n]].displacement + i] +=
-            weight * P.cwiseProduct(kinematics.first(X, field, i, N[n], dN[n])).sum();
-  });
+  integrate<order>(problem.mesh,
+                   [&](const MeshCell &cell, const auto &N, const auto &dN, const Plane &X, double weight) {
+                     const Field field = exact_field(X);
+                     const Matrix3<double> F = kinematics.deformation(X, field);
+                     const Response<double> response = material.evaluate(F, {}, {0}, nullptr, false);
+                     ASSERT_EQ(response.status, PointStatus::ok);
+                     const Matrix3<double> P = from_mandel(response.tau) * F.inverse().transpose();
+                     for (std::size_t n = 0; n < N.size(); ++n)
+                       for (int i = 0; i < 3; ++i)
+                         load[problem.mesh.nodes[cell.node[n]].displacement + i] +=
+                             weight * P.cwiseProduct(kinematics.first(X, field, i, N[n], dN[n])).sum();
+                   });
 }
 
 struct Errors {

@@ -11,6 +11,8 @@
 /// with the mesh width and vanishes in the steady state of order 2.
 #include "uniform_compression.hpp"
 
+#include <algorithm>
+
 namespace tribogel::test
 {
 
@@ -82,10 +84,8 @@ TEST(spin_up, FollowsBackwardEulersRecursion)
   for (int order : {1, 2}) {
     std::vector<double> error;
     for (int elements : {4, 8, 16}) error.push_back(from_recursion(spin_up(order, elements, dt), dt));
-    std::cout << "[  numbers ] order " << order << " recursion " << error[0] << " " << error[1] << " " << error[2]
-              << " orders " << std::log2(error[0] / error[1]) << " " << std::log2(error[1] / error[2]) << std::endl;
-    if (order == 1) EXPECT_NEAR(std::log2(error[1] / error[2]), 2, 0.1);
-    if (order == 2) EXPECT_GE(std::log2(error[1] / error[2]), 4);
+    const double rate = std::log2(error[1] / error[2]);
+    EXPECT_GE(rate, order == 1 ? 1.9 : 4); // order 1: of the nodal sum for c; order 2, measured: 4.6
     EXPECT_LE(error[2], order == 1 ? 2e-3 : 1e-6);
   }
 }
@@ -98,8 +98,6 @@ TEST(spin_up, ConvergesToTheExactCurveAtFirstOrderInTime)
     EXPECT_GT(is.k * duration / is.c, 3); // the curve levels off within the run
     error.push_back(from_curve(is));
   }
-  std::cout << "[  numbers ] curve " << error[0] << " " << error[1] << " " << error[2] << " orders "
-            << std::log2(error[0] / error[1]) << " " << std::log2(error[1] / error[2]) << std::endl;
   EXPECT_NEAR(std::log2(error[1] / error[2]), 1, 0.1);
 }
 

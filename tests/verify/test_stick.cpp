@@ -4,10 +4,13 @@
 ///     theta_slip = b0 p h / (G_s a)           (a, h: current radius and total height)
 ///
 /// Below it everything sticks: T = k theta with k = G_s pi a^4/(2 h), no sliding and no creep however long the hold.
-/// Far above it everything slides: T = 2/3 pi a^3 b0 p. Between, a ring slides that grows from the rim. The numbers are
-/// those of scalar equations (uniform_compression.hpp); b0 is so small that the twist's second order, about b0^2, is
-/// below the tolerances.
+/// The mesh errs in T only because the node on the axis holds no torque, a share of (facet on the axis)/a to the
+/// fourth. Far above it everything slides: T = 2/3 pi a^3 b0 p. Between, a ring slides that grows from the rim. The
+/// numbers are those of scalar equations (uniform_compression.hpp); b0 is so small that the twist's second order, about
+/// b0^2, is below the tolerances.
 #include "uniform_compression.hpp"
+
+#include <algorithm>
 
 namespace tribogel::test
 {
@@ -74,9 +77,7 @@ TEST(stick, BelowTheLimitTheTorqueIsThatOfTorsionAndNothingCreeps)
       EXPECT_GE(carrying, 3);
       EXPECT_LE(fastest, 1e-14 * is.slip_twist * is.radius);
     }
-    std::cout << "[  numbers ] order " << order << " T " << error[0] << " " << error[1] << " " << error[2] << " orders "
-              << std::log2(error[0] / error[1]) << " " << std::log2(error[1] / error[2]) << std::endl;
-    EXPECT_GE(std::log2(std::abs(error[1] / error[2])), 4);
+    EXPECT_GE(std::log2(error[1] / error[2]), 4); // measured 4.5 and 5
     EXPECT_LE(std::abs(error[2]), 1e-4);
   }
 }
@@ -87,8 +88,6 @@ TEST(stick, FarAboveTheLimitEverythingSlides)
     for (double direction : {1.0, -1.0}) {
       Twisted is;
       twist_and_hold(is, order, 40 * direction, 11);
-      std::cout << "[  numbers ] order " << order << " full slip "
-                << is.at_end_of_phase(1).torque / is.full_torque << std::endl;
       EXPECT_NEAR(is.at_end_of_phase(1).torque / is.full_torque, direction, 1e-6);
       EXPECT_NEAR(is.at_end_of_phase(2).torque / is.full_torque, direction, 1e-6); // held: no unloading
     }
@@ -115,9 +114,6 @@ TEST(stick, SlidingStartsAtTheRim)
       sliding = sliding || at_limit;
       (at_limit ? slip : stick) += 1;
     }
-    std::cout << "[  numbers ] order " << order << " T/full " << T / is.full_torque << " kth "
-              << T / (is.stiffness * share * is.slip_twist) << " stick " << stick << " slip " << slip << " beyond "
-              << beyond << " short " << short_of << std::endl;
     EXPECT_GE(stick, 2);
     EXPECT_GE(slip, 1);
     EXPECT_LE(beyond, 1e-9);

@@ -3,9 +3,9 @@
 ///
 ///     T/(N R) = sum_m b_m (omega R)^m 2/(m+3),    mu = sum_m b_m v^m
 ///
-/// (2 pi int mu r^2 dr over R times pi R^2). The undeformed radius is chosen so that R is the paper's 10 mm, and the laws
-/// are cases 1 to 3 of its Table 2. The program sums D_a r_a mu(omega r_a) over the nodes, the integral of the nodal
-/// interpolant of r mu: order 1 is exact for m = 0 and second order for m = 1, 2; order 2 is exact for m = 0, 1.
+/// (2 pi int mu r^2 dr over R times pi R^2). The undeformed radius is chosen so that R is the paper's 10 mm, and the
+/// laws are cases 1 to 3 of its Table 2. The program sums D_a r_a mu(omega r_a) over the nodes, the integral of the
+/// nodal interpolant of r mu: order 1 is exact for m = 0 and second order for m = 1, 2; order 2 is exact for m = 0, 1.
 /// The gels' twist changes p in second order only: (shear stress)^2/(G p), below 1e-7 here.
 #include "uniform_compression.hpp"
 
@@ -19,13 +19,13 @@ constexpr double R = 10;
 const std::vector<double> rates{0.01, 0.1, 1};
 const std::vector<double> exponents{0, 1, 2};
 const std::vector<std::vector<double>> cases{{0, 2e-4, 0}, {2.6e-4, 0, 1e-5}, {2.2e-4, 3.26e-5, 0}};
-const double table[3][3] = {{1.00e-5, 1.00e-4, 1.00e-3}, {1.734e-4, 1.773e-4, 5.733e-4}, {1.483e-4, 1.630e-4, 3.097e-4}};
+const double table[3][3] = {
+    {1.00e-5, 1.00e-4, 1.00e-3}, {1.734e-4, 1.773e-4, 5.733e-4}, {1.483e-4, 1.630e-4, 3.097e-4}};
 
 double closed_form(const std::vector<double> &b, double omega)
 {
   double sum = 0;
-  for (std::size_t m = 0; m < b.size(); ++m)
-    sum += b[m] * std::pow(omega * R, exponents[m]) * 2 / (exponents[m] + 3);
+  for (std::size_t m = 0; m < b.size(); ++m) sum += b[m] * std::pow(omega * R, exponents[m]) * 2 / (exponents[m] + 3);
   return sum;
 }
 
@@ -39,8 +39,8 @@ std::vector<double> measured(const std::vector<double> &b, int order, int elemen
   scene.mesh.elements_radial = elements;
   scene.friction = {b, exponents};
   const double approach = compression * (scene.top.height + scene.bottom.height);
-  scene.schedule = schedule_from_rates({2.5, 10, 17.5, 25}, std::vector<double>(4, approach),
-                                       {0, rates[0], rates[1], rates[2]});
+  scene.schedule =
+      schedule_from_rates({2.5, 10, 17.5, 25}, std::vector<double>(4, approach), {0, rates[0], rates[1], rates[2]});
   Problem problem;
   Recorder recorder("");
   run(scene, problem, recorder);
@@ -77,9 +77,6 @@ TEST(uniform_pressure, Order1IsSecondOrderInTheMeshWidth)
       }
     }
     for (int i = 0; i < 3; ++i) {
-      std::cout << "[  numbers ] case " << k + 1 << " rate " << rates[i] << ": " << error[0][i] << " " << error[1][i] << " "
-                << error[2][i] << " orders " << std::log2(error[0][i] / error[1][i]) << " "
-                << std::log2(error[1][i] / error[2][i]) << std::endl;
       EXPECT_NEAR(std::log2(error[1][i] / error[2][i]), 2, 0.1);
       EXPECT_LE(std::abs(error[2][i]), 0.01);
     }
@@ -89,7 +86,6 @@ TEST(uniform_pressure, Order1IsSecondOrderInTheMeshWidth)
 TEST(uniform_pressure, CoulombIsExactAtOrder1)
 {
   for (const double ratio : measured({3.1e-4, 0, 0}, 1, 3)) {
-    std::cout << "[  numbers ] coulomb order 1: " << ratio / (3.1e-4 * 2 / 3) - 1 << std::endl;
     EXPECT_NEAR(ratio / (3.1e-4 * 2 / 3), 1, 1e-7);
   }
 }
@@ -99,8 +95,6 @@ TEST(uniform_pressure, Order2IsExactForCoulombAndLinearLaws)
   for (const int k : {0, 2}) {
     const auto ratios = measured(cases[k], 2, 3);
     for (int i = 0; i < 3; ++i) {
-      std::cout << "[  numbers ] order 2 case " << k + 1 << ": " << ratios[i] / closed_form(cases[k], rates[i]) - 1
-                << std::endl;
       EXPECT_NEAR(ratios[i] / closed_form(cases[k], rates[i]), 1, 1e-7);
     }
   }
@@ -112,8 +106,6 @@ TEST(uniform_pressure, Order2QuadraticLaw)
   const int elements[2] = {4, 8};
   for (int level = 0; level < 2; ++level)
     error[level] = measured(cases[1], 2, elements[level])[2] / closed_form(cases[1], rates[2]) - 1;
-  std::cout << "[  numbers ] order 2 case 2: " << error[0] << " " << error[1] << " order "
-            << std::log2(error[0] / error[1]) << std::endl;
   EXPECT_GE(std::log2(error[0] / error[1]), 2.8);
   EXPECT_LE(std::abs(error[1]), 1e-3);
 }

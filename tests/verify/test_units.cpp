@@ -4,6 +4,10 @@
 #include "scenes.hpp"
 #include "solver_options.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
 namespace tribogel::test
 {
 
@@ -83,13 +87,12 @@ void expect_same(const PolynomialFriction<double> &friction, const Units &unit, 
     EXPECT_NEAR(b.time, a.time * unit.time, tolerance * b.time);
     force = std::max(force, std::abs(b.measurement.normal_force / unit.force() - a.measurement.normal_force));
     torque = std::max(torque, std::abs(b.measurement.torque / (unit.force() * unit.length) - a.measurement.torque));
-    iterations = std::max(iterations, std::abs(static_cast<int>(a.report.newton_iterations - b.report.newton_iterations)));
+    iterations =
+        std::max(iterations, std::abs(static_cast<int>(a.report.newton_iterations - b.report.newton_iterations)));
   }
   EXPECT_LE(iterations, 1);
   EXPECT_LE(force, tolerance * end.normal_force);
   EXPECT_LE(torque, tolerance * end.torque);
-  std::cout << "[  numbers ] N " << force / end.normal_force << " T " << torque / end.torque << " iterations "
-            << iterations << " rows " << old_rows.rows.size() << std::endl;
 }
 
 const PolynomialFriction<double> viscous{{8e-4}, {1}}, coulomb{{2.6e-4, 1e-5}, {0, 2}};
@@ -105,8 +108,14 @@ TEST(units, FixedSteps)
   }
 }
 
-TEST(units, AdaptiveStepsViscous) { expect_same(viscous, larger, 0); }
+TEST(units, AdaptiveStepsViscous)
+{
+  expect_same(viscous, larger, 0);
+}
 
-TEST(units, AdaptiveStepsCoulomb) { expect_same(coulomb, smaller, 0); }
+TEST(units, AdaptiveStepsCoulomb)
+{
+  expect_same(coulomb, smaller, 0);
+}
 
 } // namespace tribogel::test

@@ -131,8 +131,8 @@ PointStatus MeanDilatation<Kinematics, order>::State<T>::evaluate(const Kinemati
     if (!(theta[q] > 0)) return PointStatus::inverted;
     const T scale = cbrt(theta[q] / J[q]);
     const HistoryLevels<T> levels{history ? history + q * stride : nullptr};
-    response[q] = material.evaluate(Matrix3<T>(scale * F[q]), levels, step, history_new ? history_new + q * stride : nullptr,
-                                    with_tangent);
+    response[q] = material.evaluate(Matrix3<T>(scale * F[q]), levels, step,
+                                    history_new ? history_new + q * stride : nullptr, with_tangent);
     if (response[q].status != PointStatus::ok) return response[q].status;
     s[q] = (response[q].tau[0] + response[q].tau[1] + response[q].tau[2]) / (3.0 * theta[q]);
     if (energy) {
@@ -182,8 +182,8 @@ auto MeanDilatation<Kinematics, order>::curvature(const State<double> &s, int q)
   H += pJ * trace * trace.transpose();
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
-      H(3 * i + j, 3 * j + i) += t / 3 - pJ;                               // tr(l l)
-      for (int k = 0; k < 3; ++k) H(3 * i + j, 3 * i + k) += tau(j, k);    // tau : l^T l
+      H(3 * i + j, 3 * j + i) += t / 3 - pJ;                            // tr(l l)
+      for (int k = 0; k < 3; ++k) H(3 * i + j, 3 * i + k) += tau(j, k); // tau : l^T l
     }
   return H;
 }

@@ -20,7 +20,10 @@ template <int order> LineShape<order> line_shape(double xi)
     return {{0.5 * xi * (xi - 1), (1 - xi) * (1 + xi), 0.5 * xi * (xi + 1)}, {xi - 0.5, -2 * xi, xi + 0.5}};
 }
 
-constexpr int power(int base, int exponent) { return exponent == 0 ? 1 : base * power(base, exponent - 1); }
+constexpr int power(int base, int exponent)
+{
+  return exponent == 0 ? 1 : base * power(base, exponent - 1);
+}
 
 template <int dim, int order> inline constexpr int tensor_nodes = power(order + 1, dim);
 

@@ -41,7 +41,7 @@ struct AxisymmetricTorsion {
     const T r = X[0] + f.u[0];
     const T arm = r / twist_length;
     Matrix3<T> F;
-    F << 1 + f.grad[0][0], T(0), f.grad[0][1],                  //
+    F << 1 + f.grad[0][0], T(0), f.grad[0][1],                     //
         arm * f.grad[1][0], 1 + f.u[0] / X[0], arm * f.grad[1][1], //
         f.grad[2][0], T(0), 1 + f.grad[2][1];
     return F;

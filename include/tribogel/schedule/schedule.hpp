@@ -14,11 +14,11 @@ struct Phase {
   double start_rotation;               ///< angle of the top plate at the start of the phase [rad]
   double rate;                         ///< of the top plate about +z [rad/s]
 
-  double duration() const { return end_time - start_time; }                                        ///< [s]
-  double approach_rate() const { return (end_approach - start_approach) / duration(); }            ///< [mm/s]
-  double approach(double t) const { return start_approach + approach_rate() * (t - start_time); }  ///< [mm]
-  double rotation(double t) const { return start_rotation + rate * (t - start_time); }             ///< [rad]
-  double end_rotation() const { return rotation(end_time); }                                       ///< [rad]
+  double duration() const { return end_time - start_time; }                                       ///< [s]
+  double approach_rate() const { return (end_approach - start_approach) / duration(); }           ///< [mm/s]
+  double approach(double t) const { return start_approach + approach_rate() * (t - start_time); } ///< [mm]
+  double rotation(double t) const { return start_rotation + rate * (t - start_time); }            ///< [rad]
+  double end_rotation() const { return rotation(end_time); }                                      ///< [rad]
 };
 
 using Schedule = std::vector<Phase>;
