@@ -24,6 +24,8 @@ Balance balance(const Viscoelastic<double> &material, double dt)
   Problem problem;
   Recorder recorder("");
   run(scene, problem, recorder);
+  EXPECT_EQ(recorder.rows.size(), static_cast<std::size_t>(1 + std::lround(4 / dt)))
+      << "a step was cut, the order cannot be measured";
   Balance sum{0, problem.state.stored, problem.state.dissipated};
   for (std::size_t n = 1; n < recorder.rows.size(); ++n) {
     const HistoryRow &now = recorder.rows[n], &last = recorder.rows[n - 1];
@@ -40,11 +42,11 @@ Balance balance(const Viscoelastic<double> &material, double dt)
 TEST(bulk_energy, OfAHyperelasticGelIsConservedToSecondOrder)
 {
   double before = 0;
-  for (double dt : {0.25, 0.125, 0.0625}) {
+  for (double dt : {0.125, 0.0625, 0.03125}) {
     const Balance b = balance(hyperelastic_gel(), dt);
     EXPECT_EQ(b.dissipated, 0);
     if (before != 0) {
-      EXPECT_NEAR(before / b.imbalance(), 4, 0.4);
+      EXPECT_NEAR(before / b.imbalance(), 4, 0.1);
     }
     before = b.imbalance();
   }
@@ -54,11 +56,11 @@ TEST(bulk_energy, OfAHyperelasticGelIsConservedToSecondOrder)
 TEST(bulk_energy, OfAViscoelasticGelIsConservedToFirstOrder)
 {
   double before = 0;
-  for (double dt : {0.125, 0.0625, 0.03125}) {
+  for (double dt : {0.0625, 0.03125, 0.015625}) {
     const Balance b = balance(viscoelastic_gel(), dt);
     EXPECT_GT(b.dissipated, 0.05 * b.work);
     if (before != 0) {
-      EXPECT_NEAR(before / b.imbalance(), 2, 0.2);
+      EXPECT_NEAR(before / b.imbalance(), 2, 0.06);
     }
     before = b.imbalance();
   }
