@@ -170,6 +170,21 @@ PetscErrorCode Bulk::Create(const Mesh &mesh, const Scene &scene, std::unique_pt
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode ShareFailure(MPI_Comm comm, BulkFailure &failure)
+{
+  struct {
+    int status, rank;
+  } worst{static_cast<int>(failure.status), 0};
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(comm, &worst.rank));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_2INT, MPI_MAXLOC, comm));
+  if (worst.status == static_cast<int>(PointStatus::ok)) PetscFunctionReturn(0);
+  failure.status = static_cast<PointStatus>(worst.status);
+  PetscCallMPI(MPI_Bcast(&failure.body, 1, MPI_INT, worst.rank, comm));
+  PetscCallMPI(MPI_Bcast(failure.X.data(), 2, MPI_DOUBLE, worst.rank, comm));
+  PetscFunctionReturn(0);
+}
+
 std::string describe(const BulkFailure &failure)
 {
   std::ostringstream text;

@@ -54,6 +54,9 @@ public:
   static PetscErrorCode Create(const Mesh &mesh, const Scene &scene, std::unique_ptr<Bulk> &bulk);
 };
 
+/// Makes a failure on any rank known to all: they must leave the evaluation, and the solve, together. Collective.
+PetscErrorCode ShareFailure(MPI_Comm comm, BulkFailure &failure);
+
 /// In words, for messages.
 std::string describe(const BulkFailure &failure);
 

@@ -112,13 +112,14 @@ PetscErrorCode Contact::Evaluate(const ContactState<double> &state, bool derivat
   PetscFunctionBeginUser;
   const auto pairs = contact.candidate_pairs(state, 0);
   const MortarReport report = contact.update(state, pairs, derivatives, first, last);
-  double found[3] = {static_cast<double>(report.status), static_cast<double>(report.facet), report.overhang};
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, found, 2, MPI_DOUBLE, MPI_MAX, comm));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &found[2], 1, MPI_DOUBLE, MPI_SUM, comm));
-  overhang = found[2];
-  if (found[0] > 0) {
-    const auto &facet = mesh->slave.facet[static_cast<std::size_t>(found[1])];
-    failure = describe(static_cast<MortarStatus>(static_cast<int>(found[0])), mesh->slave.node[facet[0]].X[0]);
+  struct {
+    int status, facet;
+  } worst{static_cast<int>(report.status), report.facet};
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_2INT, MPI_MAXLOC, comm));
+  PetscCallMPI(MPI_Allreduce(&report.overhang, &overhang, 1, MPI_DOUBLE, MPI_SUM, comm));
+  if (worst.status != static_cast<int>(MortarStatus::ok)) {
+    const auto &facet = mesh->slave.facet[static_cast<std::size_t>(worst.facet)];
+    failure = describe(static_cast<MortarStatus>(worst.status), mesh->slave.node[facet[0]].X[0]);
   } else if (overhang > largest_overhang * contact.reference().slave_length) {
     std::ostringstream text;
     text << "the top gel hangs over the edge of the bottom gel by " << overhang << " mm, more than "

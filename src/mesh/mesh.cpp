@@ -182,7 +182,8 @@ PetscErrorCode Mesh::Number(const Scene &scene)
       PetscCall(DMLabelStratumHasPoint(labels[k], 1, point, &inside));
       if (inside) node.sides |= 1u << k;
     }
-    // A vertex on the axis has no dual weight at order 2 (THEORY 3); a prescribed node's pressure belongs to the glue.
+    // A vertex on the axis has no dual weight at order 2 (THEORY 3.1); a prescribed node's pressure belongs to the
+    // glue.
     const bool weightless = order == 2 && node.on(Side::axis);
     const bool multiplier =
         node.on(Side::slave) && !weightless && !node.on(Side::top_plate) && !node.on(Side::bottom_plate);

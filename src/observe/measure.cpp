@@ -21,6 +21,7 @@ PetscErrorCode PlateReaction(Problem &problem, const double *U, Measurement &mea
   PetscCall(DMGetLocalVector(problem.mesh.dm, &forces));
   PetscCall(DMGetLocalVector(problem.mesh.dm, &sizes));
   PetscCall(VecZeroEntries(forces));
+  PetscCall(VecZeroEntries(sizes));
   PetscCall(VecGetArray(forces, &f));
   PetscCall(VecGetArray(sizes, &s));
   const StepWeights frozen{0, 0}; // the internal variables are those at the end of the step

@@ -1,6 +1,9 @@
 /// Every PETSc callback of the program, in the order in which a step calls them.
 #include "solve/problem.hpp"
 
+#include <cmath>
+#include <limits>
+
 namespace tribogel
 {
 
@@ -43,7 +46,7 @@ PetscErrorCode Residual(DM dm, PetscReal time, Vec U, Vec Udot, Vec F, void *con
   PetscCall(VecZeroEntries(problem.magnitude));
   PetscCall(DMLocalToGlobal(dm, local_sizes, ADD_VALUES, problem.magnitude));
   PetscCall(DMRestoreLocalVector(dm, &local_sizes));
-  if (problem.bulk_failure || !problem.contact_failure.empty()) { // on one rank is enough: its norm becomes infinite
+  if (problem.bulk_failure || !problem.contact_failure.empty()) { // the same on every rank
     SNES snes;
     PetscCall(TSGetSNES(problem.ts, &snes));
     PetscCall(SNESSetFunctionDomainError(snes));
@@ -127,6 +130,13 @@ PetscErrorCode PostStep(TS ts)
   PetscCall(TSGetApplicationContext(ts, &problem));
   PetscCall(TSGetTime(ts, &time));
   PetscCall(TSGetSolution(ts, &U));
+  // t + (t_end - t) can miss t_end by a rounding: the phase has ended all the same.
+  const double end = problem->phase().end_time;
+  if (time != end && std::abs(time - end) <= 4 * std::numeric_limits<double>::epsilon() * end) {
+    time = end;
+    PetscCall(TSSetTime(ts, end));
+    PetscCall(TSSetConvergedReason(ts, TS_CONVERGED_TIME));
+  }
   if (time > problem->state.time) PetscCall(problem->AcceptStep(time, U));
   PetscFunctionReturn(0);
 }

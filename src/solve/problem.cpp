@@ -28,8 +28,19 @@ PetscErrorCode Problem::SetUp(MPI_Comm comm, const Scene &given)
 
 PetscErrorCode Problem::SetFromOptions()
 {
+  PetscReal first_step;
+  PetscBool given, is_euler;
   PetscFunctionBeginUser;
   PetscCall(TSSetFromOptions(ts));
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<TS>(ts)));
+  PetscCall(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(static_cast<TS>(ts)), TSBEULER, &is_euler));
+  PetscCheck(is_euler, comm, PETSC_ERR_USER_INPUT,
+             "-ts_type: the internal variables and the sliding velocity follow backward Euler; allowed: beuler");
+  PetscCall(PetscOptionsHasName(nullptr, nullptr, "-ts_max_time", &given));
+  PetscCheck(!given, comm, PETSC_ERR_USER_INPUT, "-ts_max_time: the schedule ends the run; use -schedule_end_times");
+  PetscCall(PetscOptionsGetReal(nullptr, nullptr, "-ts_dt", &first_step, &given));
+  PetscCheck(!given || first_step > 0, comm, PETSC_ERR_USER_INPUT,
+             "-ts_dt: the first step of a phase must be longer than 0 s");
   PetscFunctionReturn(0);
 }
 
@@ -134,6 +145,7 @@ PetscErrorCode Problem::AddResidual(double time, const double *U, const double *
   PetscCall(PetscLogEventBegin(events.bulk_residual, 0, 0, 0, 0));
   bulk_failure = bulk->AddResidual(U, state.history, weights(time), F, sizes);
   PetscCall(PetscLogEventEnd(events.bulk_residual, 0, 0, 0, 0));
+  PetscCall(ShareFailure(PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm))), bulk_failure));
   contact_failure.clear();
   PetscCall(PetscLogEventBegin(events.contact_residual, 0, 0, 0, 0));
   if (contact) PetscCall(contact->AddResidual(frames(time, time - state.time), U, Udot, F, sizes, contact_failure));

@@ -1,4 +1,5 @@
-/// All that evolves during a run. A checkpoint is this; a rejected step leaves it untouched.
+/// All that evolves during a run. A checkpoint is this; a rejected step leaves it untouched (U is
+/// the solution vector of TS, which TS restores then).
 #pragma once
 
 #include "bulk/bulk.hpp"

@@ -231,12 +231,16 @@ PetscErrorCode Problem::Run(const std::vector<Observer *> &observers, bool &comp
 std::string Problem::Explain(TSConvergedReason reason) const
 {
   std::ostringstream text;
+  if (reason == TS_CONVERGED_ITS) {
+    text << "-ts_max_steps reached at t = " << state.time << " s (phase " << state.phase + 1 << ")";
+    return text.str();
+  }
   text << "no step from t = " << state.time << " s (phase " << state.phase + 1 << ") succeeds, however small";
   if (bulk_failure)
     text << ": " << describe(bulk_failure);
   else if (!contact_failure.empty())
     text << ": " << contact_failure;
-  else if (worst.group >= 0)
+  else if (worst.ratio > 1)
     text << ": Newton's " << group_names[worst.group] << " stays at " << worst.ratio
          << " times its tolerance near R = " << worst.X[0] << " mm, Z = " << worst.X[1] << " mm of the "
          << (worst.body == top_body ? "top" : "bottom") << " gel";

@@ -9,7 +9,10 @@ namespace tribogel::test
 {
 
 /// The gel of the paper scene, without and with its Maxwell branch.
-inline Viscoelastic<double> hyperelastic_gel() { return {{{0.75, 0.45, 0.18}, {1.3, 2, 5}, 200}, {}}; }
+inline Viscoelastic<double> hyperelastic_gel()
+{
+  return {{{0.75, 0.45, 0.18}, {1.3, 2, 5}, 200}, {}};
+}
 
 inline Viscoelastic<double> viscoelastic_gel()
 {

@@ -1,7 +1,8 @@
-/// What the paper says of its own scene, and what the default run owes its user. From the paper: Fig. 8 (the bottom surface
-/// goes down by 0.31151 mm in the centre and 0.12338 mm at the edge of the patch), a contact radius of about 10.9 mm,
-/// Fig. 6 (the axial force does not notice the friction; the torque of mu = b1 v steps tenfold with the rate). The heights
-/// and the approach are calibrated to Fig. 8 (src/PAPER.md), so these three numbers check the calibration and the mesh.
+/// What the paper says of its own scene, and what the default run owes its user. From the paper: Fig. 8 (the bottom
+/// surface goes down by 0.31151 mm in the centre and 0.12338 mm at the edge of the patch), a contact radius of
+/// about 10.9 mm, Fig. 6 (the axial force does not notice the friction; the torque of mu = b1 v steps tenfold with the
+/// rate). The heights and the approach are calibrated to Fig. 8 (src/PAPER.md), so these three numbers check the
+/// calibration and the mesh.
 #include "scenes.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 /// What is simulated: a plain value, built from options by the program and by hand in tests. Units mm, N, s, MPa, rad.
-/// The defaults are the paper's rheometer as DESIGN reads it (see src/PAPER.md for what the paper fixes).
+/// The defaults are the paper's rheometer as src/PAPER.md reads it.
 #pragma once
 
 #include "tribogel/friction/polynomial.hpp"
