@@ -84,8 +84,8 @@ void expect_balance(const Scene &scene)
 {
   for (const double tolerance : {1e-5, 1e-10}) {
     const auto [force, torque] = mismatch(scene, tolerance);
-    EXPECT_LE(force, 10 * tolerance);
-    EXPECT_LE(torque, 10 * tolerance);
+    EXPECT_LE(force, 30 * tolerance);
+    EXPECT_LE(torque, 30 * tolerance);
   }
 }
 
