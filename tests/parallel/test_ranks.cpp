@@ -42,7 +42,7 @@ class ranks : public ::testing::TestWithParam<std::pair<int, double>>
 TEST_P(ranks, GiveTheNumbersOfOne)
 {
   const auto [order, mu_0] = GetParam();
-  const Options options({{"-snes_rtol", "1e-12"}, {"-ts_adapt_type", "none"}, {"-ts_dt", "0.5"}});
+  const SolverOptions options({{"-snes_rtol", "1e-12"}, {"-ts_adapt_type", "none"}, {"-ts_dt", "0.5"}});
   const Scene scene = scene_of(order, mu_0);
   Problem shared, single;
   Recorder many(""), one("");

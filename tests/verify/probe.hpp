@@ -2,30 +2,13 @@
 #pragma once
 
 #include "scenes.hpp"
+#include "solver_options.hpp"
 
 #include <algorithm>
 #include <random>
 
 namespace tribogel::test
 {
-
-/// PETSc options for the life of the object.
-class Options
-{
-public:
-  explicit Options(std::vector<std::pair<std::string, std::string>> given) : options(std::move(given))
-  {
-    for (const auto &[name, value] : options) EXPECT_EQ(PetscOptionsSetValue(nullptr, name.c_str(), value.c_str()), 0);
-  }
-  Options(const Options &) = delete;
-  ~Options()
-  {
-    for (const auto &[name, value] : options) EXPECT_EQ(PetscOptionsClearValue(nullptr, name.c_str()), 0);
-  }
-
-private:
-  std::vector<std::pair<std::string, std::string>> options;
-};
 
 using Values = std::vector<double>; ///< of the global unknowns
 

@@ -58,7 +58,7 @@ TEST(history_commit, AFailedSolveLeavesNothingBehind)
     Problem failing, smooth;
     Recorder with(""), without("");
     {
-      const Options options({{"-ts_adapt_type", "none"}, {"-ts_dt", "8"}, {"-snes_max_it", "4"}});
+      const SolverOptions options({{"-ts_adapt_type", "none"}, {"-ts_dt", "8"}, {"-snes_max_it", "4"}});
       run(scene_of(order), failing, with);
     }
     EXPECT_GE(failing.counts.failed_solves, 1);
@@ -66,7 +66,8 @@ TEST(history_commit, AFailedSolveLeavesNothingBehind)
     const double step = with.rows[1].step; // 8 s quartered once or more
     EXPECT_LT(step, 8);
     {
-      const Options options({{"-ts_adapt_type", "none"}, {"-ts_dt", std::to_string(step)}, {"-snes_max_it", "4"}});
+      const SolverOptions options(
+          {{"-ts_adapt_type", "none"}, {"-ts_dt", std::to_string(step)}, {"-snes_max_it", "4"}});
       run(scene_of(order), smooth, without);
     }
     EXPECT_EQ(smooth.counts.failed_solves, 0);
@@ -79,13 +80,13 @@ TEST(history_commit, AStepRejectedForItsErrorLeavesNothingBehind)
 {
   Problem adaptive, replayed;
   Recorder with(""), without("");
-  const Options tight({{"-snes_rtol", "1e-13"}, {"-ts_dt", "0.5"}});
+  const SolverOptions tight({{"-snes_rtol", "1e-13"}, {"-ts_dt", "0.5"}});
   {
-    const Options options({std::pair<std::string, std::string>{"-ts_atol", "3e-3"}});
+    const SolverOptions options({std::pair<std::string, std::string>{"-ts_atol", "3e-3"}});
     run(scene_of(2), adaptive, with);
   }
   EXPECT_GE(adaptive.counts.rejected_steps, 1);
-  const Options options({{"-ts_adapt_type", "none"}, {"-ts_dt", std::to_string(with.rows[1].time)}});
+  const SolverOptions options({{"-ts_adapt_type", "none"}, {"-ts_dt", std::to_string(with.rows[1].time)}});
   Replay replay(with.rows);
   bool completed = false;
   std::string why;

@@ -89,7 +89,7 @@ void check(const Case &c, double step)
 {
   Problem problem;
   Recorder recorder("");
-  const Options equal_steps({{"-ts_adapt_type", "none"}, {"-ts_dt", "0.5"}});
+  const SolverOptions equal_steps({{"-ts_adapt_type", "none"}, {"-ts_dt", "0.5"}});
   run(scene_of(c), problem, recorder);
   Probe probe(problem, step);
   std::mt19937 random(20);

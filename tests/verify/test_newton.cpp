@@ -119,7 +119,7 @@ const std::vector<std::pair<std::string, std::string>> to_the_floor = {{"-snes_r
 
 TEST(newton, IsQuadraticOnThePaperSchedule)
 {
-  const Options options(to_the_floor);
+  const SolverOptions options(to_the_floor);
   for (int order : {2, 1}) {
     Outcome outcome;
     watch(paper_scene(order == 2 ? 6 : 12, order), outcome);
@@ -130,8 +130,8 @@ TEST(newton, IsQuadraticOnThePaperSchedule)
 
 TEST(newton, IsSeenToBeLinearWithAnOldMatrix)
 {
-  const Options options(to_the_floor);
-  const Options old({{"-snes_lag_jacobian", "2"}, {"-snes_max_it", "60"}});
+  const SolverOptions options(to_the_floor);
+  const SolverOptions old({{"-snes_lag_jacobian", "2"}, {"-snes_max_it", "60"}});
   Scene scene = paper_scene(6);
   scene.schedule.resize(1);
   Outcome outcome;
