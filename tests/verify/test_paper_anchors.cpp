@@ -46,6 +46,13 @@ TEST(paper_anchors, DefaultRunMeetsFigure8InFewIterationsAndLongSteps)
   }
   EXPECT_GE(longest_in_hold, 300);
   EXPECT_LE(most, 12);
+  int slipping = 0; // once the gels' twist has settled, every point slides at the plate's rate times its radius
+  for (const ProfileRow &row : recorder.last_profile)
+    if (row.status == std::string("slip")) {
+      ++slipping;
+      EXPECT_NEAR(row.sliding_velocity / (end.rate * row.r), 1, 1e-6);
+    }
+  EXPECT_GT(slipping, 30);
   // (3.13) assumes a flat contact under uniform pressure: 0.5 % above the pressure-weighted mean here.
   EXPECT_NEAR(end.measurement.mu_apparent / end.measurement.mu_pressure_weighted, 1.005, 0.001);
 }
