@@ -62,14 +62,50 @@ PetscErrorCode GatherFacets(MPI_Comm comm, std::vector<FacetRecord> &facets)
   PetscFunctionReturn(0);
 }
 
+/// Fills the unknowns' global numbers, which each node's owner knows, on every rank. `index` finds the chain's node of
+/// a global point number.
+PetscErrorCode NumberUnknowns(const Mesh &mesh, const PetscInt *number, const std::map<PetscInt, int> &index,
+                              SurfaceChain &chain)
+{
+  ISLocalToGlobalMapping mapping;
+  const PetscInt *to_global;
+  PetscFunctionBeginUser;
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm)));
+  PetscCall(DMGetLocalToGlobalMapping(mesh.dm, &mapping));
+  PetscCall(ISLocalToGlobalMappingGetIndices(mapping, &to_global));
+  std::vector<PetscInt> numbers(7 * chain.node.size(), -1);
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    const Node &node = mesh.nodes[n];
+    const auto place = node.owned ? index.find(number[node.point]) : index.end();
+    if (place == index.end()) continue;
+    PetscInt *entry = &numbers[7 * place->second];
+    for (int i = 0; i < 3; ++i) {
+      entry[i] = std::max<PetscInt>(to_global[node.displacement + i], -1);
+      if (node.traction >= 0) entry[3 + i] = to_global[node.traction + i];
+    }
+    entry[6] = node.traction >= 0;
+    chain.node[place->second].local = static_cast<int>(n);
+  }
+  PetscCall(ISLocalToGlobalMappingRestoreIndices(mapping, &to_global));
+  PetscCallMPI(
+      MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<PetscMPIInt>(numbers.size()), MPIU_INT, MPI_MAX, comm));
+  for (std::size_t n = 0; n < chain.node.size(); ++n) {
+    for (int i = 0; i < 3; ++i) {
+      chain.node[n].displacement[i] = numbers[7 * n + i];
+      chain.node[n].traction[i] = numbers[7 * n + 3 + i];
+    }
+    chain.node[n].multiplier = numbers[7 * n + 6] == 1;
+  }
+  PetscFunctionReturn(0);
+}
+
 } // namespace
 
 PetscErrorCode GatherSurface(const Mesh &mesh, Side side, SurfaceChain &chain)
 {
   IS numbering;
-  const PetscInt *number, *to_global;
+  const PetscInt *number;
   std::vector<FacetRecord> facets;
-  ISLocalToGlobalMapping mapping;
   PetscFunctionBeginUser;
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm)));
   PetscCall(DMPlexCreatePointNumbering(mesh.dm, &numbering));
@@ -101,31 +137,7 @@ PetscErrorCode GatherSurface(const Mesh &mesh, Side side, SurfaceChain &chain)
     chain.facet.push_back(facet);
   }
 
-  PetscCall(DMGetLocalToGlobalMapping(mesh.dm, &mapping));
-  PetscCall(ISLocalToGlobalMappingGetIndices(mapping, &to_global));
-  std::vector<PetscInt> numbers(7 * chain.node.size(), -1);
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    const Node &node = mesh.nodes[n];
-    const auto place = node.owned ? index.find(number[node.point]) : index.end();
-    if (place == index.end()) continue;
-    PetscInt *entry = &numbers[7 * place->second];
-    for (int i = 0; i < 3; ++i) {
-      entry[i] = std::max<PetscInt>(to_global[node.displacement + i], -1);
-      if (node.traction >= 0) entry[3 + i] = to_global[node.traction + i];
-    }
-    entry[6] = node.traction >= 0;
-    chain.node[place->second].local = static_cast<int>(n);
-  }
-  PetscCall(ISLocalToGlobalMappingRestoreIndices(mapping, &to_global));
-  PetscCallMPI(
-      MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<PetscMPIInt>(numbers.size()), MPIU_INT, MPI_MAX, comm));
-  for (std::size_t n = 0; n < chain.node.size(); ++n) {
-    for (int i = 0; i < 3; ++i) {
-      chain.node[n].displacement[i] = numbers[7 * n + i];
-      chain.node[n].traction[i] = numbers[7 * n + 3 + i];
-    }
-    chain.node[n].multiplier = numbers[7 * n + 6] == 1;
-  }
+  PetscCall(NumberUnknowns(mesh, number, index, chain));
   PetscCall(ISRestoreIndices(numbering, &number));
   PetscCall(ISDestroy(&numbering));
   PetscFunctionReturn(0);

@@ -22,8 +22,8 @@ struct Specimen {
 /// and moved by the plate) makes uniform states exact and is used by the tests.
 enum class PlateBond { glued, lubricated };
 
-/// The defaults were measured on the paper scene (phases 1 to 3, order 2, `-ts_atol 1e-2`), where N and T still drift by
-/// 0.05 % under refinement because nothing stops the fold at the glued rims:
+/// The defaults were measured on the paper scene (phases 1 to 3, order 2, `-ts_atol 1e-2`), where N and T still drift
+/// by 0.05 % under refinement because nothing stops the fold at the glued rims:
 ///
 ///     elements  grading  unknowns  N [N]    T [N mm]  centre [mm]  rim [mm]
 ///     8         1        944       290.616  0.114567  0.3096       0.1267
