@@ -1,24 +1,24 @@
-/// The contact of the two gels in the PETSc world: both surfaces are small, so every rank holds their nodal values; the
-/// slave nodes are shared out evenly, whatever the bulk's partition is, and the forces go home by one reduction.
+/// All contact of a scene: the top gel's lower face on the bottom gel, its wall that rolls on, the walls at the plates.
+/// Every slave node belongs to exactly one of them.
 #pragma once
 
-#include "mesh/mesh.hpp"
-#include "tribogel/contact/axisymmetric_contact.hpp"
-
-#include <string>
-#include <utility>
-#include <vector>
+#include "contact/gel_contact.hpp"
+#include "contact/plate_contact.hpp"
 
 namespace tribogel
 {
 
-/// How the plates move, for the frames in which the bodies' unknowns are measured.
-struct PlateFrames {
-  double top_travel = 0;      ///< along z since t = 0 [mm]
-  double top_travel_rate = 0; ///< [mm/s]
-  double top_rate = 0;        ///< about z [rad/s]
-  double bottom_rate = 0;     ///< [rad/s]
-  double step = 1;            ///< of time [s]: what turns a sliding velocity into a distance
+/// What a slave curve of the top gel looks like at one state; the same on every rank.
+struct SurfaceResults {
+  const AxisymmetricContact *model;
+  ContactState<double> state;
+  std::vector<NodeResult> nodes;
+};
+
+struct ContactResults {
+  std::vector<SurfaceResults> surfaces; ///< the lower face, then the wall (if it may touch); empty for a single gel
+  double force = 0, torque = 0;         ///< that the gels transmit, signed as the plate's reactions [N, N mm]
+  double wall_force = 0;                ///< of the walls on the top plate, part of N [N]
 };
 
 class Contact
@@ -26,12 +26,15 @@ class Contact
 public:
   PetscErrorCode SetUp(MPI_Comm comm, const Mesh &mesh, const Scene &scene);
 
+  /// Before a step from U: which part of the wall may roll onto the bottom gel during it. Collective.
+  PetscErrorCode BeginStep(const PlateFrames &frames, const double *U);
+
   /// Contact forces and conditions are added to the local array `F` (at nodes that this rank owns) and their absolute
   /// parts to `magnitude`. On failure `failure` says why, on every rank. Collective.
   PetscErrorCode AddResidual(const PlateFrames &frames, const double *U, const double *Udot, double *F,
                              double *magnitude, std::string &failure);
 
-  /// dF/dU + shift dF/dUdot, into `A` by global indices. Collective.
+  /// dF/dU + shift dF/dUdot, into `A`. Collective.
   PetscErrorCode AddJacobian(const PlateFrames &frames, const double *U, const double *Udot, double shift, Mat A,
                              std::string &failure);
 
@@ -43,31 +46,16 @@ public:
   /// Round-off of the gap, as a force, added to the local array.
   void AddRoundOff(double *magnitude) const;
 
-  /// Nodal results of the slave, and force [N] and torque [N mm] that the tractions transmit, signed as the plate's
-  /// reactions; the same on every rank. Collective.
-  PetscErrorCode Results(const PlateFrames &frames, const double *U, const double *Udot, ContactState<double> &state,
-                         std::vector<NodeResult> &results, double &force, double &torque);
+  PetscErrorCode Results(const PlateFrames &frames, const double *U, const double *Udot, ContactResults &results);
 
-  const AxisymmetricContact &model() const { return contact; }
-  double overhang = 0; ///< of the slave beyond the master's edge in the last evaluation, reference length [mm]
+  bool between_gels() const { return !gels.empty(); }
+  const AxisymmetricContact &model() const { return gels.front().model(); } ///< of the lower face
+  double overhang() const { return gels.front().overhang; }
 
 private:
-  PetscErrorCode Gather(const PlateFrames &frames, const double *U, const double *Udot, double shift,
-                        ContactState<double> &state) const;
-  void Unpack(const PlateFrames &frames, const std::vector<double> &values, double shift,
-              ContactState<double> &state) const;
-  PetscErrorCode Evaluate(const ContactState<double> &state, bool derivatives, std::string &failure);
-  void BlockIndices(int a, const std::vector<int> &slaves, const std::vector<int> &masters, std::vector<PetscInt> &rows,
-                    std::vector<PetscInt> &columns) const;
-
   MPI_Comm comm = MPI_COMM_NULL;
-  int rank = 0, size = 1;
-  int first = 0, last = 0; ///< this rank's share of the slave nodes
-  const Mesh *mesh = nullptr;
-  PolynomialFriction<double> friction;
-  AxisymmetricContact contact;
-  std::vector<std::pair<int, int>> pattern; ///< pairs of facets that the matrix has room for
-  double margin = 0;                        ///< sliding that the pattern allows for [mm]
+  std::vector<GelContact> gels;
+  std::vector<PlateContact> plates;
 };
 
 } // namespace tribogel

@@ -73,9 +73,12 @@ PetscErrorCode Mesh::Build(MPI_Comm comm, const Scene &scene)
   PetscCall(Number(scene));
   PetscCall(Tabulate());
   if (scene.has_top) {
-    PetscCall(GatherSurface(*this, Side::slave, slave));
-    PetscCall(GatherSurface(*this, Side::master, master));
+    PetscCall(GatherSurface(*this, Side::slave, top_body, 0, slave));
+    PetscCall(GatherSurface(*this, Side::master, bottom_body, 0, master));
   }
+  for (int body : {bottom_body, top_body})
+    if (scene.plate_contact && (body == bottom_body || scene.has_top))
+      PetscCall(GatherSurface(*this, Side::wall, body, 1, wall[body]));
   PetscFunctionReturn(0);
 }
 
@@ -185,8 +188,9 @@ PetscErrorCode Mesh::Number(const Scene &scene)
     // A vertex on the axis has no dual weight at order 2 (THEORY 3.1); a prescribed node's pressure belongs to the
     // glue.
     const bool weightless = order == 2 && node.on(Side::axis);
-    const bool multiplier =
-        node.on(Side::slave) && !weightless && !node.on(Side::top_plate) && !node.on(Side::bottom_plate);
+    const bool bonded = node.on(Side::top_plate) || node.on(Side::bottom_plate);
+    const bool free_wall = scene.plate_contact && node.on(Side::wall) && !node.on(Side::master);
+    const bool multiplier = ((node.on(Side::slave) && !weightless) || free_wall) && !bonded;
     node.traction = multiplier ? 0 : -1;
     PetscCall(PetscSectionSetFieldDof(section, point, 0, 3));
     if (multiplier) PetscCall(PetscSectionSetFieldDof(section, point, 1, 3));

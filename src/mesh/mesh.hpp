@@ -38,7 +38,7 @@ struct SurfaceNode {
   int local; ///< index into Mesh::nodes on the rank that owns the node, -1 elsewhere
 };
 
-/// A contact surface as a chain of facets, from the axis outwards.
+/// A contact surface as a chain of facets.
 struct SurfaceChain {
   std::vector<SurfaceNode> node;
   std::vector<std::array<int, 3>> facet; ///< ends, then the midside node (order 2), -1 else
@@ -54,7 +54,8 @@ public:
   int order = 2;
   std::vector<Node> nodes;
   std::vector<MeshCell> cells; ///< those of this rank; each cell is on one rank
-  SurfaceChain slave, master;  ///< empty without contact
+  SurfaceChain slave, master;  ///< the gels' contact faces, from the axis outwards; empty without contact
+  SurfaceChain wall[2];        ///< each body's side wall, upwards; empty unless the walls may touch
   PetscInt unknowns = 0;       ///< in all
 
   int nodes_per_cell() const { return (order + 1) * (order + 1); }
@@ -67,7 +68,8 @@ private:
   PetscErrorCode Constrain(PetscSection section, PetscInt point, unsigned sides, PlateBond bond, bool indices);
 };
 
-/// Chain of the facets with label `side`, gathered on every rank. Collective.
-PetscErrorCode GatherSurface(const Mesh &mesh, Side side, SurfaceChain &chain);
+/// Chain of the facets of `body` with label `side`, gathered on every rank. It runs towards increasing R (direction 0)
+/// or Z (direction 1). Collective.
+PetscErrorCode GatherSurface(const Mesh &mesh, Side side, int body, int direction, SurfaceChain &chain);
 
 } // namespace tribogel

@@ -15,7 +15,8 @@ struct FacetRecord {
   double X[3][2];
 };
 
-PetscErrorCode LocalFacets(const Mesh &mesh, Side side, const PetscInt *number, std::vector<FacetRecord> &facets)
+PetscErrorCode LocalFacets(const Mesh &mesh, Side side, int body, int direction, const PetscInt *number,
+                           std::vector<FacetRecord> &facets)
 {
   PetscInt first, last;
   DMLabel label;
@@ -32,8 +33,9 @@ PetscErrorCode LocalFacets(const Mesh &mesh, Side side, const PetscInt *number, 
     PetscCall(DMPlexGetSupportSize(mesh.dm, edge, &support));
     if (!inside || support != 1) continue; // an outer edge has its one cell on one rank
     PetscCall(DMPlexGetCone(mesh.dm, edge, &ends));
+    if (node_of_point[ends[0]]->body != body) continue;
     PetscInt points[3] = {ends[0], ends[1], edge};
-    if (node_of_point[ends[0]]->X[0] > node_of_point[ends[1]]->X[0]) std::swap(points[0], points[1]);
+    if (node_of_point[ends[0]]->X[direction] > node_of_point[ends[1]]->X[direction]) std::swap(points[0], points[1]);
     FacetRecord record{};
     for (int k = 0; k < 3; ++k) {
       const PetscInt n = number[points[k]];
@@ -47,7 +49,7 @@ PetscErrorCode LocalFacets(const Mesh &mesh, Side side, const PetscInt *number, 
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode GatherFacets(MPI_Comm comm, std::vector<FacetRecord> &facets)
+PetscErrorCode GatherFacets(MPI_Comm comm, int direction, std::vector<FacetRecord> &facets)
 {
   PetscMPIInt size, mine = static_cast<PetscMPIInt>(facets.size() * sizeof(FacetRecord));
   PetscFunctionBeginUser;
@@ -57,7 +59,8 @@ PetscErrorCode GatherFacets(MPI_Comm comm, std::vector<FacetRecord> &facets)
   for (int r = 1; r < size; ++r) starts[r] = starts[r - 1] + counts[r - 1];
   std::vector<FacetRecord> all((starts.back() + counts.back()) / sizeof(FacetRecord));
   PetscCallMPI(MPI_Allgatherv(facets.data(), mine, MPI_BYTE, all.data(), counts.data(), starts.data(), MPI_BYTE, comm));
-  std::sort(all.begin(), all.end(), [](const auto &a, const auto &b) { return a.X[0][0] < b.X[0][0]; });
+  std::sort(all.begin(), all.end(),
+            [direction](const auto &a, const auto &b) { return a.X[0][direction] < b.X[0][direction]; });
   facets = std::move(all);
   PetscFunctionReturn(0);
 }
@@ -101,7 +104,7 @@ PetscErrorCode NumberUnknowns(const Mesh &mesh, const PetscInt *number, const st
 
 } // namespace
 
-PetscErrorCode GatherSurface(const Mesh &mesh, Side side, SurfaceChain &chain)
+PetscErrorCode GatherSurface(const Mesh &mesh, Side side, int body, int direction, SurfaceChain &chain)
 {
   IS numbering;
   const PetscInt *number;
@@ -110,8 +113,8 @@ PetscErrorCode GatherSurface(const Mesh &mesh, Side side, SurfaceChain &chain)
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm)));
   PetscCall(DMPlexCreatePointNumbering(mesh.dm, &numbering));
   PetscCall(ISGetIndices(numbering, &number));
-  PetscCall(LocalFacets(mesh, side, number, facets));
-  PetscCall(GatherFacets(comm, facets));
+  PetscCall(LocalFacets(mesh, side, body, direction, number, facets));
+  PetscCall(GatherFacets(comm, direction, facets));
 
   chain = {};
   std::map<PetscInt, int> index; // global point number -> node of the chain
@@ -133,7 +136,7 @@ PetscErrorCode GatherSurface(const Mesh &mesh, Side side, SurfaceChain &chain)
     if (mesh.order == 2) facet[2] = add(record, 2);
     facet[1] = add(record, 1);
     PetscCheck(chain.facet.empty() || chain.facet.back()[1] == facet[0], comm, PETSC_ERR_PLIB,
-               "contact surface is not one chain");
+               "a contact surface is not one chain");
     chain.facet.push_back(facet);
   }
 

@@ -49,23 +49,22 @@ double tangential(const NodeResult &node)
 }
 
 /// Friction coefficients over the nodes that touch.
-void average(const Problem &problem, const ContactState<double> &state, const std::vector<NodeResult> &nodes,
-             Measurement &m)
+void average(const Problem &problem, const std::vector<SurfaceResults> &surfaces, Measurement &m)
 {
   double count = 0, sum = 0, area = 0, area_sum = 0, force = 0, friction = 0, radius = 0;
-  const AxisymmetricContact &model = problem.contact->model();
-  for (std::size_t a = 0; a < nodes.size(); ++a) {
-    const NodeResult &node = nodes[a];
-    if (!node.carries || node.status == ContactStatus::open || !(node.pressure > 0)) continue;
-    const double mu = tangential(node) / node.pressure, A = node.area;
-    count += 1;
-    sum += mu;
-    area += A;
-    area_sum += A * mu;
-    force += A * node.pressure;
-    friction += A * node.pressure * mu;
-    radius = std::max(radius, position(model.reference().slave, state.slave, static_cast<int>(a)).r);
-  }
+  for (const SurfaceResults &surface : surfaces)
+    for (std::size_t a = 0; a < surface.nodes.size(); ++a) {
+      const NodeResult &node = surface.nodes[a];
+      if (!node.carries || node.status == ContactStatus::open || !(node.pressure > 0)) continue;
+      const double mu = tangential(node) / node.pressure, A = node.area;
+      count += 1;
+      sum += mu;
+      area += A;
+      area_sum += A * mu;
+      force += A * node.pressure;
+      friction += A * node.pressure * mu;
+      radius = std::max(radius, position(surface.model->reference().slave, surface.state.slave, static_cast<int>(a)).r);
+    }
   if (count == 0) return;
   const Scene &scene = problem.scene;
   const double N = m.normal_force, R = scene.top.radius;
@@ -99,14 +98,13 @@ ProfileRow row_at(const char *surface, const SurfaceReference &reference, const 
   return row;
 }
 
-void tabulate(const Problem &problem, const ContactState<double> &state, const std::vector<NodeResult> &nodes,
-              std::vector<ProfileRow> &profile)
+void tabulate(const Problem &problem, const SurfaceResults &surface, bool wall, std::vector<ProfileRow> &profile)
 {
-  const ContactGeometry &geometry = problem.contact->model().reference();
-  const double L = problem.scene.twist_length(), time = problem.state.time;
-  for (std::size_t a = 0; a < nodes.size(); ++a) {
-    ProfileRow row = row_at("top", geometry.slave, state.slave, static_cast<int>(a), L, problem.phase().rotation(time));
-    const NodeResult &node = nodes[a];
+  const ContactGeometry &geometry = surface.model->reference();
+  const double L = problem.scene.twist_length(), rotation = problem.phase().rotation(problem.state.time);
+  for (std::size_t a = wall ? 1 : 0; a < surface.nodes.size(); ++a) { // a wall starts at a node of the face
+    ProfileRow row = row_at("top", geometry.slave, surface.state.slave, static_cast<int>(a), L, rotation);
+    const NodeResult &node = surface.nodes[a];
     if (node.carries) {
       row.pressure = node.pressure;
       row.traction_radial = node.cauchy[0];
@@ -117,9 +115,18 @@ void tabulate(const Problem &problem, const ContactState<double> &state, const s
     }
     profile.push_back(row);
   }
+}
+
+/// The top gel's lower face from the axis to its rim and the lower half of its wall upwards, then the bottom gel's
+/// face.
+void tabulate(const Problem &problem, const std::vector<SurfaceResults> &surfaces, std::vector<ProfileRow> &profile)
+{
+  for (const SurfaceResults &surface : surfaces) tabulate(problem, surface, &surface != &surfaces.front(), profile);
+  const ContactGeometry &geometry = surfaces.front().model->reference();
+  const double rotation = problem.scene.bottom_plate_rate * problem.state.time;
   for (std::size_t a = 0; a < geometry.master.X.size(); ++a)
-    profile.push_back(row_at("bottom", geometry.master, state.master, static_cast<int>(a), L,
-                             problem.scene.bottom_plate_rate * time));
+    profile.push_back(row_at("bottom", geometry.master, surfaces.front().state.master, static_cast<int>(a),
+                             problem.scene.twist_length(), rotation));
 }
 
 } // namespace
@@ -137,12 +144,15 @@ PetscErrorCode Measure(Problem &problem, Measurement &measurement, std::vector<P
   PetscCall(VecGetArrayRead(Udot, &rate));
   PetscCall(PlateReaction(problem, u, measurement));
   if (problem.contact) {
-    ContactState<double> state;
-    std::vector<NodeResult> nodes;
-    PetscCall(problem.contact->Results(problem.frames(problem.state.time, problem.state.step), u, rate, state, nodes,
-                                       measurement.contact_force, measurement.contact_torque));
-    average(problem, state, nodes, measurement);
-    if (profile) tabulate(problem, state, nodes, *profile);
+    ContactResults results;
+    PetscCall(problem.contact->Results(problem.frames(problem.state.time, problem.state.step), u, rate, results));
+    measurement.normal_force += results.wall_force;
+    if (problem.contact->between_gels()) {
+      measurement.contact_force = results.force;
+      measurement.contact_torque = results.torque;
+      average(problem, results.surfaces, measurement);
+      if (profile) tabulate(problem, results.surfaces, *profile);
+    }
   }
   PetscCall(VecRestoreArrayRead(Udot, &rate));
   PetscCall(VecRestoreArrayRead(U, &u));

@@ -41,12 +41,19 @@ OptionGroup geometry_group()
                   .source = source,
                   .range = positive};
   };
-  OptionGroup group{"Geometry (undeformed)",
-                    {length("-top_radius", "10", "radius of the top specimen", "paper"),
-                     length("-top_height", "4.4", "height of the top specimen", "assumed"),
-                     length("-bottom_radius", "12.5", "radius of the bottom specimen", "paper"),
-                     length("-bottom_height", "4", "height of the bottom specimen", "assumed"),
-                     length("-initial_gap", "0", "distance of the two gels at t = 0", "own")}};
+  OptionGroup group{
+      "Geometry (undeformed)",
+      {length("-top_radius", "10", "radius of the top specimen", "paper"),
+       length("-top_height", "4.4", "height of the top specimen", "assumed"),
+       length("-bottom_radius", "12.5", "radius of the bottom specimen", "paper"),
+       length("-bottom_height", "4", "height of the bottom specimen", "assumed"),
+       length("-initial_gap", "0", "distance of the two gels at t = 0", "own"),
+       {.name = "-plate_contact",
+        .kind = OptionKind::flag,
+        .fallback = "true",
+        .meaning = "side walls may touch, not penetrate, the plates; the top gel's may roll onto the bottom "
+                   "gel",
+        .source = "own"}}};
   group.options[0].rule = "not larger than -bottom_radius: the slave surface lies inside the master surface";
   group.options[4].range = non_negative;
   return group;

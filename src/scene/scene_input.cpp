@@ -21,6 +21,7 @@ void read_geometry(const OptionReader &reader, Scene &scene)
   scene.bottom.radius = reader.real("-bottom_radius");
   scene.bottom.height = reader.real("-bottom_height");
   scene.initial_gap = reader.real("-initial_gap");
+  scene.plate_contact = reader.flag("-plate_contact");
   if (scene.has_top && scene.top.radius > scene.bottom.radius) {
     const Option &option = OptionReader::declared("-top_radius");
     refuse("-top_radius", reader.text(option),

@@ -14,7 +14,7 @@ PetscErrorCode Problem::SetUp(MPI_Comm comm, const Scene &given)
   PetscCall(mesh.Build(comm, scene));
   PetscCall(PetscLogEventEnd(events.mesh, 0, 0, 0, 0));
   PetscCall(Bulk::Create(mesh, scene, bulk));
-  if (scene.has_top) {
+  if (scene.has_top || scene.plate_contact) {
     contact = std::make_unique<Contact>();
     PetscCall(contact->SetUp(comm, mesh, scene));
   }

@@ -70,7 +70,7 @@ public:
   Scene scene;
   Mesh mesh;
   std::unique_ptr<Bulk> bulk;
-  std::unique_ptr<Contact> contact; ///< null without a top specimen
+  std::unique_ptr<Contact> contact; ///< null where nothing can touch
   State state;
   SolveCounts counts;
   LogEvents events;
@@ -86,6 +86,7 @@ public:
   WorstResidual worst;
 
   PetscErrorCode BuildMatrix();
+  PetscErrorCode BeginStep(); ///< from the accepted state
   PetscErrorCode UpdatePattern(SNES snes);
   PetscErrorCode AcceptStep(PetscReal time, Vec U);
   PetscErrorCode JudgeResidual(Vec F, bool &converged);

@@ -27,6 +27,7 @@ PetscErrorCode PreStep(TS ts)
   PetscCall(TSGetApplicationContext(ts, &problem));
   PetscCall(TSGetSolution(ts, &U));
   PetscCall(VecCopy(U, problem->before));
+  PetscCall(problem->BeginStep());
   PetscFunctionReturn(0);
 }
 
@@ -162,6 +163,23 @@ PetscErrorCode Problem::AcceptStep(PetscReal time, Vec U)
   PetscCall(PetscLogEventBegin(events.observe, 0, 0, 0, 0));
   for (Observer *observer : watching) PetscCall(observer->Step(*this, report));
   PetscCall(PetscLogEventEnd(events.observe, 0, 0, 0, 0));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Problem::BeginStep()
+{
+  Vec U, Udot;
+  const PetscScalar *u;
+  PetscFunctionBeginUser;
+  if (!contact) PetscFunctionReturn(0);
+  PetscCall(DMGetLocalVector(mesh.dm, &U));
+  PetscCall(DMGetLocalVector(mesh.dm, &Udot));
+  PetscCall(LocalState(U, Udot));
+  PetscCall(VecGetArrayRead(U, &u));
+  PetscCall(contact->BeginStep(frames(state.time, state.step), u));
+  PetscCall(VecRestoreArrayRead(U, &u));
+  PetscCall(DMRestoreLocalVector(mesh.dm, &Udot));
+  PetscCall(DMRestoreLocalVector(mesh.dm, &U));
   PetscFunctionReturn(0);
 }
 

@@ -150,6 +150,7 @@ Eigen::Matrix<T, Eigen::Dynamic, 1> whole_residual(const ContactScene &scene, co
     add_kinematics(geometry, a, state, y, node);
     const auto rows = node_residual<T>(geometry, a, node, state.multiplier[a], state.stick_rate, law);
     residual.template segment<3>(3 * a) += rows.slave;
+    if (geometry.nodes[a].tied >= 0) residual.template segment<3>(3 * geometry.nodes[a].tied) += rows.tied;
     residual.template segment<3>(multiplier) = rows.condition;
     for (std::size_t k = 0; k < node.masters.size(); ++k)
       residual.template segment<3>(3 * (slaves + node.masters[k])) += rows.master[k];

@@ -24,10 +24,11 @@ struct MortarReport {
 };
 
 /// One slave node's contribution. Columns: (u_R, w, u_Z) of each slave node, of each master node, then the multiplier
-/// (r, theta, z) of node a; rows: u of node a, of each master node, then the conditions. slave_nodes[0] is a, so the
-/// rows are columns 0 to 2 and those from 3 slave_nodes.size() on.
+/// (r, theta, z) of node a; rows: u of the first `slave_rows` slave nodes (a itself, and the crease node tied to it),
+/// of each master node, then the conditions.
 struct NodeBlock {
   std::vector<int> slave_nodes, master_nodes;
+  int slave_rows = 1;       ///< 2 where the multiplier is extended to a crease
   Eigen::VectorXd residual; ///< [N]
   Eigen::MatrixXd jacobian; ///< with d rate / d u = shift; only after update(derivatives = true)
   ContactStatus status;
@@ -37,7 +38,7 @@ struct NodeBlock {
 struct NodeResult {
   bool carries;
   ContactStatus status;
-  double weight;                   ///< D_a: nominal traction times weight is a force [mm^2]
+  double weight;                   ///< nominal traction times weight is a force [mm^2]
   double area;                     ///< current: Cauchy traction times area is the same force [mm^2]
   double gap;                      ///< [mm]
   double pressure;                 ///< Cauchy [MPa]
@@ -69,9 +70,11 @@ public:
   /// The nodes that block.slave_nodes and block.master_nodes of node a can contain as long as `pairs` are sufficient.
   NodeBlock pattern(int a, FacetPairs pairs) const
   {
-    NodeBlock block{.slave_nodes = {a}, .master_nodes = {}, .residual = {}, .jacobian = {}, .status = {}};
+    NodeBlock block{
+        .slave_nodes = {a}, .master_nodes = {}, .slave_rows = 1, .residual = {}, .jacobian = {}, .status = {}};
     if (!geometry.nodes[a].carries) return block;
     block.slave_nodes = slave_neighbourhood(geometry, a);
+    block.slave_rows = geometry.nodes[a].tied >= 0 ? 2 : 1;
     const LineChain &slave = geometry.slave_chain, &master = geometry.master_chain;
     for (int k = 0; k < slave.neighbours[a].count; ++k)
       for (const auto &[f, m] : pairs_of(pairs, slave.neighbours[a].of[k].facet))
@@ -89,7 +92,7 @@ public:
   /// torque that opposes a rotation of the slave is the negative of the second.
   std::pair<double, double> resultant(int a) const
   {
-    const Vector3<double> force = geometry.nodes[a].D * now.multiplier[a];
+    const Vector3<double> force = geometry.nodes[a].weight() * now.multiplier[a];
     if (!geometry.nodes[a].carries) return {0, 0};
     return {force[2], x[a].r * force[1]};
   }
@@ -171,10 +174,13 @@ template <FrictionLaw<Dual<10>> Law> void AxisymmetricContact::node(int a, const
   block.slave_nodes = slave_neighbourhood(geometry, a);
   block.master_nodes = contact.masters;
   block.status = values.status;
-  const int masters = static_cast<int>(contact.masters.size());
-  block.residual.resize(6 + 3 * masters);
+  const auto &constants = geometry.nodes[a];
+  block.slave_rows = constants.tied >= 0 ? 2 : 1;
+  const int masters = static_cast<int>(contact.masters.size()), first_master = 3 * block.slave_rows;
+  block.residual.resize(first_master + 3 * masters + 3);
   block.residual.head<3>() = values.slave;
-  for (int k = 0; k < masters; ++k) block.residual.segment<3>(3 + 3 * k) = values.master[k];
+  if (constants.tied >= 0) block.residual.segment<3>(3) = values.tied;
+  for (int k = 0; k < masters; ++k) block.residual.segment<3>(first_master + 3 * k) = values.master[k];
   block.residual.tail<3>() = values.condition;
   if (!with_derivatives) return;
 
@@ -187,11 +193,10 @@ template <FrictionLaw<Dual<10>> Law> void AxisymmetricContact::node(int a, const
     point.velocity[i] = D::seed(contact.velocity[i], 4 + i);
     point.normal[i] = D::seed(normal[i], 7 + i);
   }
-  const auto &constants = geometry.nodes[a];
   const auto C = contact_condition<D>(point, {constants.c_N, constants.c_N / now.stick_rate}, law, constants.on_axis);
   Eigen::Matrix<double, 3, 10> slope;
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 10; ++j) slope(i, j) = constants.D * C.residual[i].d[j];
+    for (int j = 0; j < 10; ++j) slope(i, j) = constants.weight() * C.residual[i].d[j];
   const NodeDerivative derivative(geometry, now, contact, y, dn, facets, a, block.slave_nodes);
   derivative.assemble(slope, block.jacobian);
 }
@@ -200,6 +205,7 @@ inline void AxisymmetricContact::without_multiplier(int a, NodeBlock &block) con
 {
   const double scale = geometry.nodes[a].extent;
   block.slave_nodes = {a};
+  block.slave_rows = 1;
   block.master_nodes.clear();
   block.status = ContactStatus::open;
   block.residual.setZero(6);
@@ -228,12 +234,14 @@ inline double AxisymmetricContact::current_area(int a) const
 {
   static const auto rule = gauss_rule<5>();
   const LineChain &chain = geometry.slave_chain;
+  const int tied = geometry.nodes[a].tied;
   const auto over_facet = [&]<int nodes>(LineChain::FacetNode at) {
     const auto points = chain.on_facet<nodes>(at.facet, x);
     double area = 0;
     for (int q = 0; q < 5; ++q) {
       const auto shape = facet_shape<nodes>(rule.point[q]);
-      area += rule.weight[q] * shape.N[at.local] * 2 * std::numbers::pi * interpolate(shape.N, points).r *
+      const double N = shape.N[at.local] + (chain.facets[at.facet][0] == tied ? shape.N[0] : 0);
+      area += rule.weight[q] * N * 2 * std::numbers::pi * interpolate(shape.N, points).r *
               length(interpolate(shape.dN, points));
     }
     return area;
@@ -251,13 +259,13 @@ template <FrictionLaw<double> Law> NodeResult AxisymmetricContact::result(int a,
   const auto &constants = geometry.nodes[a];
   const Vector3<double> undefined = Vector3<double>::Constant(nan);
   if (!constants.carries)
-    return {false, ContactStatus::open, constants.D, nan, nan, nan, undefined, undefined, undefined, undefined};
+    return {false, ContactStatus::open, constants.weight(), nan, nan, nan, undefined, undefined, undefined, undefined};
   const NodeContact<double> node = contact_of(a);
   const Vector3<double> &lambda = now.multiplier[a], normal(node.n.r, 0, node.n.z);
   const double area = current_area(a);
-  const Vector3<double> cauchy = constants.D / area * lambda;
+  const Vector3<double> cauchy = constants.weight() / area * lambda;
   const ContactStatus status = node_residual<double>(geometry, a, node, lambda, now.stick_rate, law).status;
-  return {true,   status,   constants.D,
+  return {true,   status,   constants.weight(),
           area,   node.gap, -cauchy.dot(normal),
           lambda, cauchy,   node.velocity - node.velocity.dot(normal) * normal,
           normal};

@@ -7,12 +7,13 @@
 namespace tribogel
 {
 
-/// Slave nodes whose positions the rows of node a depend on, a first: those of its facets, and of the facets beside
-/// them, through the nodal normals.
+/// Slave nodes whose positions the rows of node a depend on, a first, then the crease node tied to it: those of its
+/// facets, and of the facets beside them, through the nodal normals.
 inline std::vector<int> slave_neighbourhood(const ContactGeometry &geometry, int a)
 {
   const LineChain &chain = geometry.slave_chain;
   std::vector<int> nodes{a};
+  if (geometry.nodes[a].tied >= 0) nodes.push_back(geometry.nodes[a].tied);
   for (int k = 0; k < chain.neighbours[a].count; ++k)
     for (int b = 0; b < chain.facet_nodes; ++b) {
       const int node = chain.facets[chain.neighbours[a].of[k].facet][b];
@@ -32,8 +33,8 @@ public:
                  const std::vector<NormalWithDerivative> &normal_derivatives,
                  const std::vector<FacetMortar<double>> &facet_integrals, int slave, std::vector<int> columns_of_slaves)
       : geometry(contact_geometry), now(state), node(contact), y(master_positions), dn(normal_derivatives),
-        facets(facet_integrals), a(slave), slaves(std::move(columns_of_slaves)),
-        master_column(3 * static_cast<int>(slaves.size())),
+        facets(facet_integrals), a(slave), is_tied(geometry.nodes[slave].tied >= 0),
+        slaves(std::move(columns_of_slaves)), master_column(3 * static_cast<int>(slaves.size())),
         unknowns(master_column + 3 * static_cast<int>(node.masters.size()))
   {
   }
@@ -41,19 +42,22 @@ public:
   /// `condition` is d (D C) / d (multiplier, gap, velocity, normal).
   void assemble(const Eigen::Matrix<double, 3, 10> &condition, Eigen::MatrixXd &J) const
   {
-    const double D = geometry.nodes[a].D, L = geometry.twist_length;
+    const double L = geometry.twist_length, D[2] = {geometry.nodes[a].D, geometry.nodes[a].tied_D};
     const Vector3<double> &lambda = now.multiplier[a];
     const Vector3<double> force = conjugate_force<double>(lambda, node.x.r, L);
     const Vector3<double> unit(1, node.x.r / L, 1); // d force / d lambda
-    const int masters = static_cast<int>(node.masters.size());
+    const int masters = static_cast<int>(node.masters.size()), slave_rows = is_tied ? 2 : 1;
     const Eigen::MatrixXd dM = mortar_row();
-    J.setZero(6 + 3 * masters, unknowns + 3);
-    J(1, 0) = -D * lambda[1] / L;
-    J.block<3, 3>(0, unknowns).diagonal() = -D * unit;
+    J.setZero(3 * (slave_rows + masters + 1), unknowns + 3);
+    for (int k = 0; k < slave_rows; ++k) {
+      J(3 * k + 1, 0) = -D[k] * lambda[1] / L;
+      J.block<3, 3>(3 * k, unknowns).diagonal() = -D[k] * unit;
+    }
     for (int k = 0; k < masters; ++k) {
-      J.block(3 + 3 * k, 0, 3, unknowns) = force * dM.row(k);
-      J(4 + 3 * k, 0) += node.M[k] * lambda[1] / L;
-      J.block<3, 3>(3 + 3 * k, unknowns).diagonal() = node.M[k] * unit;
+      const int row = 3 * (slave_rows + k);
+      J.block(row, 0, 3, unknowns) = force * dM.row(k);
+      J(row + 1, 0) += node.M[k] * lambda[1] / L;
+      J.block<3, 3>(row, unknowns).diagonal() = node.M[k] * unit;
     }
     J.bottomLeftCorner(3, unknowns) = condition.rightCols<7>() * point(dM);
     J.bottomRightCorner<3, 3>() = condition.leftCols<3>();
@@ -69,6 +73,7 @@ private:
   const std::vector<NormalWithDerivative> &dn;
   const std::vector<FacetMortar<double>> &facets;
   int a;
+  bool is_tied;
   std::vector<int> slaves;
   int master_column, unknowns;
 
@@ -114,10 +119,18 @@ private:
   /// d (gap, v_r, v_theta, v_z, n_r, n_theta, n_z) / d u.
   PointDerivative point(const Eigen::MatrixXd &dM) const
   {
-    const double D = geometry.nodes[a].D;
+    const auto &constants = geometry.nodes[a];
+    const double D = constants.weight(), own[2] = {constants.D / D, constants.tied_D / D};
     const Vector3<double> lever(1, node.x.r / geometry.twist_length, 1);
     PointDerivative d = PointDerivative::Zero(7, unknowns);
-    PlanePoint<double> arm{-node.x.r, -node.x.z}; // gap = n . arm
+    PlanePoint<double> arm; // gap = n . arm
+    for (int k = 0; k < (is_tied ? 2 : 1); ++k) {
+      const PlanePoint<double> x = position(geometry.slave, now.slave, slaves[k]);
+      arm += PlanePoint<double>{-own[k] * x.r, -own[k] * x.z};
+      d(0, 3 * k) -= own[k] * node.n.r;
+      d(0, 3 * k + 2) -= own[k] * node.n.z;
+      for (int i = 0; i < 3; ++i) d(1 + i, 3 * k + i) += own[k] * lever[i] * now.shift;
+    }
     for (std::size_t k = 0; k < node.masters.size(); ++k) {
       const int m = node.masters[k], column = master_column + 3 * static_cast<int>(k);
       const double share = node.M[k] / D;
@@ -130,9 +143,6 @@ private:
         d(1 + i, column + i) -= lever[i] * share * now.shift;
       }
     }
-    d(0, 0) -= node.n.r;
-    d(0, 2) -= node.n.z;
-    for (int i = 0; i < 3; ++i) d(1 + i, i) += lever[i] * now.shift;
     d(2, 0) += node.spin;
     const NormalWithDerivative &normal = dn[a];
     for (int q = 0; q < 2 * normal.stencil.count; ++q) {

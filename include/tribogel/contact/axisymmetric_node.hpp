@@ -10,6 +10,9 @@
 ///                                                     master +M_m (lambda_r, r lambda_theta / L, lambda_z)
 ///                                                     condition  D C
 ///
+/// A multiplier that is extended to a crease acts on two slave nodes: D x stands for D_aa x_a + D_ac x_c, likewise the
+/// rates and the forces, and D for D_aa + D_ac elsewhere.
+///
 /// Both frame velocities are taken at the slave's point, so a common rotation is exactly no sliding; sum_m M_m = D, so
 /// the forces and the torque about the axis balance exactly.
 #pragma once
@@ -49,16 +52,24 @@ template <class T>
 void add_kinematics(const ContactGeometry &geometry, int a, const ContactState<T> &state,
                     const std::vector<PlanePoint<T>> &y, NodeContact<T> &node)
 {
-  const double D = geometry.nodes[a].D;
-  PlanePoint<T> projected;
+  const auto &constants = geometry.nodes[a];
+  const double D = constants.weight();
+  PlanePoint<T> projected, own = node.x;
+  node.velocity = state.slave.rate[a];
+  if (constants.tied >= 0) {
+    const double share = constants.tied_D / D;
+    const PlanePoint<T> crease = position(geometry.slave, state.slave, constants.tied);
+    own = {(1 - share) * node.x.r + share * crease.r, (1 - share) * node.x.z + share * crease.z};
+    node.velocity = (1 - share) * state.slave.rate[a] + share * state.slave.rate[constants.tied];
+  }
   Vector3<T> master_rate = Vector3<T>::Zero();
   for (std::size_t k = 0; k < node.masters.size(); ++k) {
     const int m = node.masters[k];
     projected += PlanePoint<T>{node.M[k] * y[m].r, node.M[k] * y[m].z};
     master_rate += node.M[k] * state.master.rate[m];
   }
-  node.gap = dot(node.n, PlanePoint<T>{projected.r / D, projected.z / D} - node.x);
-  node.velocity = state.slave.rate[a] - master_rate / T(D);
+  node.gap = dot(node.n, PlanePoint<T>{projected.r / D, projected.z / D} - own);
+  node.velocity -= master_rate / T(D);
   node.velocity[2] += state.slave.travel_rate - state.master.travel_rate;
   node.spin = state.slave.rotation_rate - state.master.rotation_rate + node.velocity[1] / geometry.twist_length;
   node.velocity[1] = node.x.r * node.spin;
@@ -72,6 +83,7 @@ template <class T> Vector3<T> conjugate_force(const Vector3<T> &multiplier, cons
 
 template <class T> struct NodeResidual {
   Vector3<T> slave;               ///< rows of u at the slave node [N]
+  Vector3<T> tied;                ///< rows of u at the crease node to which the multiplier is extended, else 0 [N]
   std::vector<Vector3<T>> master; ///< rows of u at its masters [N]
   Vector3<T> condition;           ///< rows of the multiplier, D C [N]
   ContactStatus status;
@@ -86,7 +98,11 @@ NodeResidual<T> node_residual(const ContactGeometry &geometry, int a, const Node
   const auto condition =
       contact_condition<T>(point, {constants.c_N, constants.c_N / stick_rate}, law, constants.on_axis);
   const Vector3<T> force = conjugate_force<T>(multiplier, node.x.r, geometry.twist_length);
-  NodeResidual<T> residual{-T(constants.D) * force, {}, T(constants.D) * condition.residual, condition.status};
+  NodeResidual<T> residual{-T(constants.D) * force,
+                           -T(constants.tied_D) * force,
+                           {},
+                           T(constants.weight()) * condition.residual,
+                           condition.status};
   for (const T &M : node.M) residual.master.push_back(M * force);
   return residual;
 }

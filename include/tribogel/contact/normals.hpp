@@ -54,7 +54,7 @@ PlanePoint<T> nodal_normal(const LineChain &chain, int a, bool on_axis, const Po
   for (int k = 0; k < facets.count; ++k)
     sum += chain.facet_nodes == 2 ? facet_normal.template operator()<2>(facets.of[k])
                                   : facet_normal.template operator()<3>(facets.of[k]);
-  if (facets.count == 1) return sum;
+  if (facets.count < 2) return sum;
   const T inverse = 1 / length(sum);
   return {sum.r * inverse, sum.z * inverse};
 }

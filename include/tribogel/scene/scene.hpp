@@ -54,6 +54,8 @@ struct Scene {
   Specimen top, bottom;
   PlateBond plate_bond = PlateBond::glued;
   double initial_gap = 0; ///< between the gels before contact [mm]
+  /// The side walls may touch the plates, and the top gel's wall may roll onto the bottom gel; else they meet nothing.
+  bool plate_contact = true;
   PolynomialFriction<double> friction;
   Schedule schedule;
   double bottom_plate_rate = 0; ///< co-rotation of the bottom plate [rad/s]; no option, 0 but in tests

@@ -1,0 +1,73 @@
+/// Contact of a slave curve of the top gel (its lower face, or its wall that may roll) with the bottom gel in the PETSc
+/// world: both surfaces are small, so every rank holds their nodal values; the slave nodes are shared out evenly,
+/// whatever the bulk's partition is, and the forces go home by one reduction.
+#pragma once
+
+#include "contact/plate_frames.hpp"
+#include "mesh/mesh.hpp"
+#include "tribogel/contact/axisymmetric_contact.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tribogel
+{
+
+class GelContact
+{
+public:
+  /// `wall`: the slave is a side wall, which starts at the crease with the lower face.
+  PetscErrorCode SetUp(MPI_Comm comm, const Mesh &mesh, const Scene &scene, SurfaceChain slave, bool wall);
+
+  /// Before a step from U: which facets of a wall may touch during it. Collective.
+  PetscErrorCode BeginStep(const PlateFrames &frames, const double *U);
+
+  /// Contact forces and conditions are added to the local array `F` (at nodes that this rank owns) and their absolute
+  /// parts to `magnitude`. On failure `failure` says why, on every rank. Collective.
+  PetscErrorCode AddResidual(const PlateFrames &frames, const double *U, const double *Udot, double *F,
+                             double *magnitude, std::string &failure);
+
+  /// dF/dU + shift dF/dUdot, into `A` by global indices. Collective.
+  PetscErrorCode AddJacobian(const PlateFrames &frames, const double *U, const double *Udot, double shift, Mat A,
+                             std::string &failure);
+
+  /// Finds the pairs of facets that meet at U and whether the matrix pattern covers them; if not, the next AddPattern
+  /// does, with room for further sliding. Collective.
+  PetscErrorCode UpdateCandidates(const PlateFrames &frames, const double *U, bool &covered);
+  PetscErrorCode AddPattern(Mat A) const;
+
+  /// Round-off of the gap, as a force, added to the local array.
+  void AddRoundOff(double *magnitude) const;
+
+  /// Nodal results of the slave, and force [N] and torque [N mm] that the tractions transmit, signed as the plate's
+  /// reactions; the same on every rank. Collective.
+  PetscErrorCode Results(const PlateFrames &frames, const double *U, const double *Udot, ContactState<double> &state,
+                         std::vector<NodeResult> &results, double &force, double &torque);
+
+  const AxisymmetricContact &model() const { return contact; }
+  double overhang = 0; ///< of the slave beyond the master's edge in the last evaluation, reference length [mm]
+
+private:
+  PetscErrorCode Gather(const PlateFrames &frames, const double *U, const double *Udot, double shift,
+                        ContactState<double> &state) const;
+  void Unpack(const PlateFrames &frames, const std::vector<double> &values, double shift,
+              ContactState<double> &state) const;
+  PetscErrorCode Evaluate(const ContactState<double> &state, bool derivatives, std::string &failure);
+  void BlockIndices(int a, const NodeBlock &block, std::vector<PetscInt> &rows, std::vector<PetscInt> &columns) const;
+  void Touch(int facets);
+
+  MPI_Comm comm = MPI_COMM_NULL;
+  int rank = 0, size = 1;
+  int first = 0, last = 0; ///< this rank's share of the slave nodes
+  const Mesh *mesh = nullptr;
+  SurfaceChain slave;
+  bool wall = false;
+  ContactParameters parameters;
+  PolynomialFriction<double> friction;
+  AxisymmetricContact contact;
+  std::vector<std::pair<int, int>> pattern; ///< pairs of facets that the matrix has room for
+  double margin = 0;                        ///< sliding that the pattern allows for [mm]
+};
+
+} // namespace tribogel

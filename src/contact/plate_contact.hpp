@@ -1,0 +1,42 @@
+/// Contact of a body's side wall with the rigid plates in the PETSc world. Each node is handled by the rank that owns
+/// it; nothing is communicated.
+#pragma once
+
+#include "contact/plate_frames.hpp"
+#include "mesh/mesh.hpp"
+#include "tribogel/contact/plate.hpp"
+
+namespace tribogel
+{
+
+class PlateContact
+{
+public:
+  /// The nodes of `wall` with a multiplier, save those in `taken` (indices into the chain).
+  void SetUp(const Mesh &mesh, const Scene &scene, int body, const SurfaceChain &wall, const std::vector<bool> &taken);
+
+  void AddResidual(const PlateFrames &frames, const double *U, double *F, double *magnitude) const;
+  PetscErrorCode AddJacobian(const PlateFrames &frames, const double *U, Mat A) const;
+  PetscErrorCode AddPattern(Mat A) const;
+  void AddRoundOff(double *magnitude) const;
+
+  /// Axial force of this rank's nodes on the plate above the body, downwards positive on the gel [N].
+  double ForceOnTopPlate(const double *U) const;
+
+private:
+  struct WallNode {
+    int node;       ///< index into Mesh::nodes
+    double D, c_N;  ///< as in ContactGeometry
+    double outward; ///< +1: the plate above, -1: the one below
+    double plate;   ///< height of the plate less the travel it shares with the body's frame [mm]
+  };
+
+  PlateNodeBlock Block(const WallNode &wall_node, const PlateFrames &frames, const double *U) const;
+
+  const Mesh *mesh = nullptr;
+  bool spans_both = false; ///< one gel between the plates: the upper one moves against the frame of its unknowns
+  std::vector<WallNode> nodes;
+  double extent = 0; ///< of the scene, for round-off [mm]
+};
+
+} // namespace tribogel

@@ -1,0 +1,18 @@
+/// A mesh's surface as the contact operators want it.
+#pragma once
+
+#include "mesh/mesh.hpp"
+#include "tribogel/contact/axisymmetric_state.hpp"
+
+namespace tribogel
+{
+
+inline SurfaceReference reference_of(const SurfaceChain &chain)
+{
+  SurfaceReference surface;
+  for (const SurfaceNode &node : chain.node) surface.X.push_back({node.X[0], node.X[1]});
+  surface.facets = chain.facet;
+  return surface;
+}
+
+} // namespace tribogel
