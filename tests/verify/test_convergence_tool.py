@@ -1,0 +1,233 @@
+#!/usr/bin/python3
+"""tools/convergence finds limits and orders that are known, does not trust those that it cannot know, reads what runs
+leave, and goes through a study on tiny meshes.
+
+  test_convergence_tool.py TRIBOGEL
+"""
+import csv
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import types
+import unittest
+
+import numpy as np
+
+sys.dont_write_bytecode = True
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(REPOSITORY / "tools"))
+import extrapolate as ex  # noqa: E402
+import refinement  # noqa: E402
+
+PROGRAM = None
+
+
+def power(elements, limit, slope, order):
+    h = 1 / np.array(elements, float)
+    return h, limit + slope * h**order
+
+
+class Extrapolation(unittest.TestCase):
+    def recovers(self, elements, limit, slope, order, theory=4):
+        h, v = power(elements, limit, slope, order)
+        found = ex.extrapolate(h, v, theory)
+        self.assertEqual(found.verdict, "confirmed")
+        self.assertAlmostEqual(found.order, order, delta=1e-8)
+        self.assertAlmostEqual(found.value, limit, delta=1e-11 * abs(limit))
+        expected = ex.CONFIRMED_FACTOR * abs(v[-1] - limit)
+        self.assertAlmostEqual(found.uncertainty, expected, delta=1e-6 * expected + 1e-11 * abs(limit))
+
+    def test_limit_and_order_of_three_levels(self):
+        self.recovers((8, 16, 32), 3.7, 2.1, 2)
+        self.recovers((8, 12, 16), 290.3, -75, 1.37)
+        self.recovers((5, 11, 13), -0.42, 0.9, 0.61)
+
+    def test_limit_and_order_of_more_levels(self):
+        self.recovers((8, 12, 16, 24), 290.3, 75, 1.37)
+        self.recovers((3, 5, 7, 13, 17), -11.3, 4.3, 2.9)
+
+    def test_levels_in_any_order(self):
+        h, v = power((8, 12, 16), 290.3, -75, 1.37)
+        self.assertEqual(ex.extrapolate(h[[1, 2, 0]], v[[1, 2, 0]], 4), ex.extrapolate(h, v, 4))
+
+    def test_noise_widens_the_uncertainty_and_covers_the_limit(self):
+        h, v = power((8, 12, 16, 24, 32), 7.3, 5.1, 1.6)
+        clean = ex.extrapolate(h, v, 2)
+        noisy = ex.extrapolate(h, v + 0.004 * np.array([1, -1, 1, -1, 1]), 2)
+        self.assertEqual(noisy.verdict, "confirmed")
+        self.assertGreater(noisy.uncertainty, clean.uncertainty + 0.004)
+        self.assertLess(abs(noisy.value - 7.3), noisy.uncertainty)
+
+    def test_what_does_not_converge_in_order_is_not_extrapolated(self):
+        for values, verdict in (((5.0, 5.4, 5.3), "oscillates"), ((5.0, 5.1, 5.2), "slow"), ((5.0, 5.1, 5.3), "slow"),
+                                ((5.0, 5.4, 5.3, 5.35), "oscillates")):
+            found = ex.extrapolate(1 / 2.0 ** np.arange(len(values)), values, 2)
+            self.assertEqual((found.verdict, found.value), (verdict, values[-1]))
+            self.assertGreaterEqual(found.uncertainty, 3 * (max(values) - min(values)) * (1 - 1e-12))
+
+    def test_an_order_too_good_is_replaced_by_that_of_theory(self):
+        found = ex.extrapolate([1, 0.5, 0.25], [5.0, 5.32, 5.33], 2)  # ratio 32: order 5
+        self.assertEqual(found.verdict, "fast")
+        self.assertAlmostEqual(found.order, 5, delta=1e-9)
+        self.assertGreater(found.value, 5.33)
+        self.assertGreater(found.uncertainty, 3 * (found.value - 5.33))
+
+    def test_few_levels_and_round_off(self):
+        self.assertEqual(ex.extrapolate([1], [5.0], 2).verdict, "one level")
+        two = ex.extrapolate([1, 0.5], [5.0, 5.2], 2)
+        self.assertEqual((two.verdict, two.value), ("few levels", 5.2))
+        self.assertAlmostEqual(two.uncertainty, 0.6, delta=1e-12)
+        self.assertEqual(ex.extrapolate([1, 0.5, 0.25], [5.0, 5 + 2e-10, 5 + 1e-10], 2).verdict, "settled")
+        self.assertEqual(ex.extrapolate([1, 0.5, 0.25], [1e-12, -2e-12, 3e-12], 2, scale=11).verdict, "settled")
+
+    def test_mesh_and_steps_add_up(self):
+        mesh, steps = ex.Limit(10.3, 0.02, 2, "confirmed"), ex.Limit(9.6, 0.05, 1, "confirmed")
+        both = ex.combine(mesh, steps, 9.9)
+        self.assertAlmostEqual(both.value, 10.0, delta=1e-12)
+        self.assertAlmostEqual(both.uncertainty, 0.07, delta=1e-12)
+
+    def test_agreement(self):
+        a, b, c = (ex.Limit(value, u, 2, "confirmed") for value, u in ((10.0, 0.1), (10.25, 0.2), (10.6, 0.2)))
+        unknown = ex.Limit(10.0, float("nan"), 2, "one level")
+        self.assertTrue(a.agrees(b) and b.agrees(a) and b.agrees(c))
+        self.assertFalse(a.agrees(c))
+        self.assertTrue(ex.all_agree([a, b]))
+        self.assertFalse(ex.all_agree([a, b, c]))
+        self.assertFalse(a.agrees(unknown))
+        self.assertIs(ex.best([b, unknown, a, c]), a)
+        self.assertIsNone(ex.best([unknown]))
+
+    def test_self_similarity(self):
+        n = np.array([8, 12, 16, 24])
+        self.assertLess(ex.family_irregularity(n, (7.3 * n - 2.2) ** 2), 1e-12)
+        self.assertGreater(ex.family_irregularity(n, (7.3 * n - 2.2) ** 2 * [1, 1.1, 1, 1]), 0.01)
+
+    def test_curves(self):
+        x, at = np.array([0, 0.3, 0.9, 2, 4.5]), np.linspace(0, 4.5, 50)
+        self.assertLess(np.max(np.abs(ex.interpolate(x, 2 - 3 * x, at) - (2 - 3 * at))), 1e-13)
+        step = ex.interpolate(x, np.array([0, 0, 1, 1, 1.0]), at)
+        self.assertTrue(np.all(np.diff(step) >= 0) and step.min() == 0 and step.max() == 1)
+        fine, coarse = np.linspace(0, 2, 401), np.linspace(0, 2, 37)
+        difference, bound = ex.curve_difference(coarse, np.exp(-coarse) + 0.01 * coarse, fine, np.exp(-fine))
+        self.assertAlmostEqual(difference, 0.02, delta=2e-5)
+        self.assertLess(bound, 2e-5)
+        self.assertLess(ex.curve_difference(coarse, np.exp(-coarse), fine, np.exp(-fine))[0], bound)
+
+
+def fake_run(folder, family, elements, tolerance, force, steps):
+    """The files of a run with one phase, as the program writes them."""
+    case = refinement.Case(family, elements, tolerance)
+    directory = pathlib.Path(folder, case.name())
+    directory.mkdir()
+    end = dict.fromkeys(refinement.QUANTITIES.values())  # null where nothing is known
+    end |= {"phase": 1, "time_s": 27.0, "normal_force_N": force, "contact_radius_mm": 10.9}
+    summary = {"phases": [end], "cost": {"cpu_s": 1.5, "peak_memory_MB": 48},
+               "counts": {"unknowns": elements**2, "accepted_steps": steps, "rejected_steps": 3, "newton_iterations": 99}}
+    (directory / "summary.json").write_text(json.dumps(summary))
+    (directory / "profile.csv").write_text("phase,surface,reference_r_mm,reference_z_mm,z_mm,status\n"
+                                           "1,top,4,0.5,0.2,slip\n1,top,0,0.5,0.1,slip\n1,top,9,0.5,0.375,open\n"
+                                           "1,bottom,0,0,-0.4,nan\n")
+    return refinement.read_result(case, directory)
+
+
+class Reading(unittest.TestCase):
+    def test_run_directory_and_limits_of_a_family(self):
+        family = refinement.Family(2, "4", (8, 12, 16))
+        settings = types.SimpleNamespace(tolerances=["0.01", "0.0025", "0.000625"], mesh_tolerance="0.01",
+                                         step_elements={family: 8}, step_size="tolerance", time_order=1,
+                                         targets=(1e-4, 1e-3))
+
+        def force(n, tolerance):  # orders 1.5 and 1 (in the root of the tolerance)
+            return 290 + 40 * n**-1.5 - 7 * float(tolerance) ** 0.5
+
+        with tempfile.TemporaryDirectory() as folder:
+            cases = [(n, "0.01") for n in family.elements] + [(8, t) for t in settings.tolerances[1:]]
+            results = [fake_run(folder, family, n, t, force(n, t), 100) for n, t in cases]
+            with self.assertRaisesRegex(refinement.BadInput, "cannot read"):
+                refinement.read_result(results[0].case, folder)
+        self.assertEqual(results[0].counts["cpu_s"], 1.5)
+        self.assertAlmostEqual(results[0].value(1, "top_centre"), 0.4, delta=1e-15)
+        self.assertAlmostEqual(results[0].value(1, "top_rim"), 0.125, delta=1e-15)
+        self.assertTrue(np.isnan(results[0].value(1, "T")) and np.isnan(results[0].value(2, "N")))
+        study = refinement.Study([family], results, settings)
+        key = (family, 1, "N")
+        self.assertAlmostEqual(study.mesh[key].order, 1.5, delta=1e-6)
+        self.assertAlmostEqual(study.steps[key].order, 1, delta=1e-6)
+        self.assertAlmostEqual(study.limits[key].value, 290, delta=1e-7)
+        finest = results[2]
+        self.assertAlmostEqual(study.error(finest, "N")[0], abs(force(16, "0.01") - 290) / 290, delta=1e-9)
+        self.assertNotIn((family, 1, "T"), study.limits)
+        results[1].failure = "status 3"
+        self.assertEqual(refinement.Study([family], results, settings).mesh[key].verdict, "few levels")
+
+
+class EndToEnd(unittest.TestCase):
+    def study(self, folder, *words):
+        return subprocess.run([REPOSITORY / "tools" / "convergence", *words], capture_output=True, text=True, cwd=folder,
+                              check=False)
+
+    def refuses(self, folder, *words, because):
+        done = self.study(folder, *words)
+        self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
+        self.assertIn(because, done.stderr)
+
+    def test_tiny_study(self):
+        quick = str(REPOSITORY / "options" / "quick.opts")
+        words = [quick, "--program", PROGRAM, "--family", "1:2:2,3,4", "--family", "2:1:2,3,4", "--tolerances", "4e-2",
+                 "--output", "study"]
+        schedule = ["--", "-schedule_end_times", "9,30", "-schedule_approach", "0.3,0.3", "-schedule_rates", "0,0.1"]
+        with tempfile.TemporaryDirectory() as folder:
+            done = self.study(folder, *words, *schedule)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(done.stderr.count(" done "), 10, done.stderr)
+            out = pathlib.Path(folder, "study")
+            self.assertTrue((out / "convergence.png").read_bytes().startswith(b"\x89PNG"))
+            self.assertTrue((out / "convergence.pdf").read_bytes().startswith(b"%PDF"))
+            with open(out / "runs.csv", newline="", encoding="utf-8") as file:
+                rows = list(csv.DictReader(file))
+            self.assertEqual(len(rows), 20)  # 10 runs, 2 phases
+            for row in rows:
+                name = f"order{row['order']}_grading{row['grading']}_n{row['elements']}_tolerance{row['tolerance']}"
+                with open(out / "runs" / name / "history.csv", newline="", encoding="utf-8") as file:
+                    ends = {step["phase"]: step for step in csv.DictReader(file)}
+                for column in ("normal_force_N", "torque_Nmm", "contact_radius_mm", "time_s"):
+                    self.assertEqual(float(row[column]), float(ends[row["phase"]][column]))
+            table = (out / "convergence.md").read_text(encoding="utf-8")
+            for heading in ("## Runs", "order 1 grading 2", "order 2 uniform", "## Do the limits agree", "mesh order"):
+                self.assertIn(heading, table)
+            self.refuses(folder, *words, *schedule, because="--resume")
+            (out / "runs" / "order1_grading2_n3_tolerance0.04" / "study.json").unlink()
+            again = self.study(folder, *words, "--resume", *schedule)
+            self.assertEqual((again.stderr.count(" kept "), again.stderr.count(" done ")), (9, 1), again.stderr)
+            schedule[-1] = "0,0.2"
+            changed = self.study(folder, *words, "--resume", *schedule)
+            self.assertEqual(changed.stderr.count(" done "), 10, changed.stderr)
+
+    def test_failed_runs_are_reported_in_the_programs_words(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = self.study(folder, str(REPOSITORY / "options" / "quick.opts"), "--program", PROGRAM, "--family",
+                              "1:2:2,3,4", "--", "-top_radius", "-3")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertEqual(done.stderr.count("FAILED"), 5)
+        self.assertRegex(done.stdout, "FAILED order1_grading2_n2_tolerance0.001: status 2: tribogel: error: .*-top_radius")
+
+    def test_bad_input_is_refused_in_one_line(self):
+        quick = str(REPOSITORY / "options" / "quick.opts")
+        with tempfile.TemporaryDirectory() as folder:
+            for words, because in ((["nowhere.opts"], "nowhere.opts"), ([], "OPTIONS_FILE"),
+                                   ([quick, "--family", "3:4:8,12,16"], "element order"),
+                                   ([quick, "--elements", "2", "--ratio", "1.1"], "a mesh twice"),
+                                   ([quick, "--", "-element_order", "1"], "-element_order is set by the study"),
+                                   ([quick, "--mesh-tolerance", "0.5"], "--mesh-tolerance"),
+                                   ([quick, "--levels", "2"], "--levels"), ([quick, "--program", "none"], "none")):
+                self.refuses(folder, *words, because=because)
+            self.assertEqual(list(pathlib.Path(folder).iterdir()), [])
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2:
+        sys.exit("usage: test_convergence_tool.py TRIBOGEL")
+    PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    unittest.main()
