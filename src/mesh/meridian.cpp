@@ -9,84 +9,124 @@ namespace tribogel
 namespace
 {
 
-struct Spacing {
-  double smallest, ratio, largest;
+/// Width of the zone in which edges grow, over the smallest dimension of the specimens. Measured on the paper scene,
+/// see MeshParameters.
+constexpr double zone_over_size = 0.25;
+
+/// Edges in the band of the bottom gel over which the top's rim slides, against the largest.
+constexpr double band_refinement = 8;
+
+/// Wanted edge length at a distance d from a line of singular stress: it grows linearly from `smallest` to `largest`
+/// over the width of a zone.
+struct SizeField {
+  double smallest, largest, zone;
+
+  /// Number of edges between a fine end and the distance d from it, int_0^d dx / h(x).
+  double edges(double d) const
+  {
+    const double growth = (largest - smallest) / zone, inside = std::min(d, zone);
+    const double graded = growth > 0 ? std::log1p(growth * inside / smallest) / growth : inside / smallest;
+    return graded + (d - inside) / largest;
+  }
+
+  /// Its inverse.
+  double distance(double count) const
+  {
+    const double growth = (largest - smallest) / zone, in_zone = edges(zone);
+    if (count > in_zone) return zone + (count - in_zone) * largest;
+    return growth > 0 ? smallest * std::expm1(growth * count) / growth : count * smallest;
+  }
 };
 
-Spacing spacing_of(double radius, int elements, double grading)
+/// The field that puts `elements` edges on a radius whose outer end is fine.
+SizeField size_field(double radius, int elements, double grading, double zone)
 {
-  const double ratio = elements > 1 ? std::pow(grading, 1.0 / (elements - 1)) : 1.0;
-  double sum = 0;
-  for (int k = 0; k < elements; ++k) sum += std::pow(ratio, k);
-  const double smallest = radius / sum;
-  return {smallest, ratio, smallest * (elements > 1 ? grading : 1.0)};
+  const SizeField shape{1 / grading, 1, zone};
+  const double unit = shape.edges(radius) / elements;
+  return {unit / grading, unit, zone};
 }
 
-/// Sizes that grow from `smallest` until they cover `length`, then scaled to it; the smallest comes first.
-std::vector<double> growing_sizes(double length, const Spacing &s)
+/// Distances from a fine end at 0 to `length`, about edges(length) of them, at least one.
+std::vector<double> graded_distances(double length, const SizeField &field)
 {
-  std::vector<double> sizes;
-  double sum = 0;
-  // A last size that would be covered to less than half is not added: scaling up is closer than scaling down.
-  for (double h = s.smallest; sizes.empty() || sum + 0.5 * h < length; h = std::min(h * s.ratio, s.largest)) {
-    sizes.push_back(h);
-    sum += h;
+  const double total = field.edges(length);
+  const auto count = std::max(1L, std::lround(total));
+  std::vector<double> points;
+  for (long k = 0; k < count; ++k)
+    points.push_back(field.distance(total * static_cast<double>(k) / static_cast<double>(count)));
+  points.push_back(length);
+  return points;
+}
+
+std::vector<double> points_between(double a, double b, bool fine_at_a, bool fine_at_b, const SizeField &field)
+{
+  std::vector<double> points;
+  if (fine_at_a) {
+    const double part = fine_at_b ? 0.5 * (b - a) : b - a;
+    for (const double d : graded_distances(part, field)) points.push_back(a + d);
+  } else if (fine_at_b)
+    points.push_back(a);
+  else
+    for (const double d : graded_distances(b - a, {field.largest, field.largest, field.zone})) points.push_back(a + d);
+  if (fine_at_b) {
+    std::vector<double> distances = graded_distances(b - points.back(), field);
+    for (auto d = distances.rbegin() + 1; d != distances.rend(); ++d) points.push_back(b - *d);
   }
-  for (double &h : sizes) h *= length / sum;
-  return sizes;
-}
-
-std::vector<double> points_between(double a, double b, bool fine_at_a, bool fine_at_b, const Spacing &s)
-{
-  return graded_points(a, b, fine_at_a, fine_at_b, s.smallest, s.ratio, s.largest);
+  points.back() = b;
+  return points;
 }
 
 } // namespace
 
-std::vector<double> graded_points(double a, double b, bool fine_at_a, bool fine_at_b, double smallest, double ratio,
-                                  double largest)
+namespace
 {
-  const double length = b - a;
-  std::vector<double> sizes;
-  if (fine_at_a && fine_at_b) {
-    sizes = growing_sizes(length / 2, {smallest, ratio, largest});
-    sizes.insert(sizes.end(), sizes.rbegin(), sizes.rend());
-  } else if (fine_at_a || fine_at_b) {
-    sizes = growing_sizes(length, {smallest, ratio, largest});
-    if (fine_at_b) std::reverse(sizes.begin(), sizes.end());
-  } else {
-    const auto count = static_cast<std::size_t>(std::ceil(length / largest - 1e-9));
-    sizes.assign(std::max<std::size_t>(count, 1), length / static_cast<double>(std::max<std::size_t>(count, 1)));
-  }
-  std::vector<double> points{a};
-  for (std::size_t k = 0; k + 1 < sizes.size(); ++k) points.push_back(points.back() + sizes[k]);
-  points.push_back(b);
-  return points;
+
+/// Radii of the bottom body: fine at the outer wall and where the top's rim rests. While the gels are pressed the rim
+/// slides outwards over the softer-held bottom gel, by 0.4 mm on the paper scene (approach 0.79 mm): a band as wide as
+/// the approach gets edges of one size. With edges fine at the top's radius only, the pressure at the rim wiggled by 25
+/// %.
+std::vector<double> radii_under_rim(const Scene &scene, const SizeField &field)
+{
+  const double rim = std::min(scene.top.radius, scene.bottom.radius), outer = scene.bottom.radius;
+  double travel = 0;
+  for (const Phase &phase : scene.schedule) travel = std::max({travel, phase.start_approach, phase.end_approach});
+  SizeField in_band = field;
+  in_band.smallest = std::max(field.smallest, field.largest / band_refinement);
+  const auto append = [](std::vector<double> &points, const std::vector<double> &more) {
+    points.insert(points.end(), more.begin() + 1, more.end());
+  };
+  if (rim == outer) return points_between(0, rim, false, true, field);
+  std::vector<double> R = points_between(0, rim, false, true, in_band);
+  const double end = std::min(rim + std::max(0.0, travel - scene.initial_gap), 0.5 * (rim + outer));
+  if (end > rim) append(R, points_between(rim, end, false, false, {in_band.smallest, in_band.smallest, field.zone}));
+  const double middle = 0.5 * (end + outer);
+  append(R, points_between(end, middle, true, false, in_band));
+  append(R, points_between(middle, outer, false, true, field));
+  return R;
 }
+
+} // namespace
 
 std::vector<MeridianBlock> meridian_blocks(const Scene &scene)
 {
   const MeshParameters &mesh = scene.mesh;
   const Specimen &leading = scene.has_top ? scene.top : scene.bottom;
-  const Spacing s = spacing_of(leading.radius, mesh.elements_radial, mesh.grading);
   const Specimen &bottom = scene.bottom;
+  const double zone = zone_over_size * std::min({leading.radius, leading.height, bottom.height});
+  const SizeField s = size_field(leading.radius, mesh.elements_radial, mesh.grading, zone);
   std::vector<MeridianBlock> blocks;
 
-  Spacing bottom_spacing = s;
+  SizeField bottom_spacing = s;
   if (mesh.bottom_elements_radial > 0)
-    bottom_spacing = spacing_of(leading.radius, mesh.bottom_elements_radial, mesh.grading);
-  const double rim = std::min(leading.radius, bottom.radius);
+    bottom_spacing = size_field(leading.radius, mesh.bottom_elements_radial, mesh.grading, zone);
   MeridianBlock lower{bottom_body,
-                      points_between(0, rim, false, true, bottom_spacing),
+                      scene.has_top ? radii_under_rim(scene, bottom_spacing)
+                                    : points_between(0, bottom.radius, false, true, bottom_spacing),
                       points_between(-bottom.height, 0, true, true, bottom_spacing),
                       Side::axis,
                       Side::wall,
                       Side::bottom_plate,
                       scene.has_top ? Side::master : Side::top_plate};
-  if (bottom.radius > rim) {
-    const std::vector<double> overhang = points_between(rim, bottom.radius, true, true, bottom_spacing);
-    lower.R.insert(lower.R.end(), overhang.begin() + 1, overhang.end());
-  }
   blocks.push_back(lower);
 
   if (scene.has_top)

@@ -25,14 +25,10 @@ struct MeridianBlock {
   long cells() const { return static_cast<long>(R.size() - 1) * static_cast<long>(Z.size() - 1); }
 };
 
-/// Points from a to b whose spacing grows from `smallest` at the fine ends by `ratio` up to `largest`, scaled to fit.
-/// With no fine end the spacing is uniform, at most `largest`.
-std::vector<double> graded_points(double a, double b, bool fine_at_a, bool fine_at_b, double smallest, double ratio,
-                                  double largest);
-
-/// Meshes of the scene's specimens. The spacing follows from the top (or only) specimen's radius: `elements_radial`
-/// edges, `grading` times smaller at the rim than at the axis. The same smallest edge and growth are used towards the
-/// bonded ends and the contact, where the stress is singular, and around the rim of the contact on the bottom body.
+/// Meshes of the scene's specimens. Stress is singular where the bonded ends and the contact meet the side walls: from
+/// these lines the edges grow linearly with the distance, from the smallest to `grading` times that, and stay there.
+/// `elements_radial` edges lie on the top (or only) specimen's radius; the rest follows from the same sizes, so meshes
+/// of equal grading differ in scale only (up to whole numbers of edges).
 std::vector<MeridianBlock> meridian_blocks(const Scene &scene);
 
 } // namespace tribogel
