@@ -49,7 +49,10 @@ std::string describe(const PolynomialFriction<double> &friction)
     text += (i ? (b < 0 ? " - " : " + ") : (b < 0 ? " -" : " ")) + number(std::abs(b));
     if (m != 0) text += " v" + (m == 1 ? std::string() : "^" + number(m));
   }
-  return text + " (v in mm/s)";
+  text += " (v in mm/s)";
+  if (friction.linear_in_pressure()) return text;
+  return text + ", |traction| = mu p^" + number(friction.pressure_exponent) + " (p in MPa, above " +
+         number(friction.pressure_floor) + ")";
 }
 
 std::string describe(const Schedule &schedule, double radius)

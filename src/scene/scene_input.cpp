@@ -38,17 +38,20 @@ void read_friction(const OptionReader &reader, SceneInput &input)
   const std::vector<double> b = reader.reals(coefficients), m = reader.reals(exponents);
   double at_rest = 0;
   for (std::size_t i = 0; i < m.size(); ++i) {
-    if (!PolynomialFriction<double>::admissible(m[i]))
-      refuse(exponents.name, reader.text(exponents), "allowed: " + exponents.allowed());
+    if (PolynomialFriction<double>::steep(m[i]) && b[i] < 0)
+      refuse(coefficients.name, reader.text(coefficients),
+             to_text(b[i]) + " with exponent " + to_text(m[i]) + "; allowed: >= 0 with an exponent between 0 and 1");
     if (m[i] == 0) at_rest += b[i];
   }
   if (at_rest < 0)
     refuse(coefficients.name, reader.text(coefficients),
            "the coefficient at rest is " + to_text(at_rest) + "; allowed: the terms with exponent 0 add up to >= 0");
-  reader.real("-friction_pressure_exponent");
+  const double a = reader.real("-friction_pressure_exponent"), floor = reader.real("-friction_pressure_floor");
   if (!input.scene.has_top) return;
   if (polynomial) {
-    input.scene.friction = PolynomialFriction<double>{b, m};
+    input.scene.friction = PolynomialFriction<double>{b, m, a, floor};
+    if (a == 1 && reader.is_given("-friction_pressure_floor"))
+      input.notes.push_back("without effect with -friction_pressure_exponent 1: -friction_pressure_floor");
     if (*std::min_element(b.begin(), b.end()) < 0)
       input.notes.push_back("-friction_coefficients = " + reader.text(coefficients) +
                             ": friction that weakens with speed has unstable sliding states, and mu(v) may become"
@@ -56,7 +59,8 @@ void read_friction(const OptionReader &reader, SceneInput &input)
     return;
   }
   std::string idle;
-  for (const char *name : {"-friction_coefficients", "-friction_exponents", "-friction_pressure_exponent"})
+  for (const char *name :
+       {"-friction_coefficients", "-friction_exponents", "-friction_pressure_exponent", "-friction_pressure_floor"})
     if (reader.is_given(name)) idle += (idle.empty() ? "" : ", ") + std::string(name);
   if (!idle.empty()) input.notes.push_back("without effect with -friction_law none: " + idle);
 }

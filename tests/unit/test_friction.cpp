@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numbers>
 
 namespace tribogel
@@ -15,6 +16,7 @@ namespace
 static_assert(FrictionLaw<PolynomialFriction<double>, double>);
 static_assert(FrictionLaw<PolynomialFriction<double>, Dual<2>>);
 static_assert(FrictionLaw<PolynomialFriction<Dual<2>>, Dual<2>>);
+static_assert(FrictionLaw<PolynomialFriction<double>, Dual<11>>);
 
 const PolynomialFriction<double> mixed{{0.31, 0.047, -0.0021, 0.013}, {0, 1, 2.5, 1.3}};
 
@@ -74,6 +76,158 @@ TEST(PolynomialFriction, GivesDerivativesWithRespectToItsCoefficients)
   const Dual<2> tau = law.static_strength(p).value + law.sliding(v, p).over_v * v;
   EXPECT_NEAR(tau.d[0], p, 1e-15);
   EXPECT_NEAR(tau.d[1], p * std::pow(v, 2.5), 1e-15);
+}
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+const double pressure_exponents[] = {0, 0.3, 0.7, 1};
+
+/// All kinds of terms, sized to matter together around v = 1.
+PolynomialFriction<double> every_kind(double pressure_exponent)
+{
+  return {{0.31, 0.47, 0.23, 0.047, 0.013, -1e-9}, {0, 0.25, 0.5, 1, 2, 3}, pressure_exponent, 2e-4};
+}
+
+double mu_of_every_kind(double v)
+{
+  return 0.31 + 0.47 * std::sqrt(std::sqrt(v)) + 0.23 * std::sqrt(v) + 0.047 * v + 0.013 * v * v - 1e-9 * v * v * v;
+}
+
+template <class Check> void over_decades(const Check &check)
+{
+  for (int decade_v = -12; decade_v <= 3; ++decade_v)
+    for (int decade_p = -12; decade_p <= 1; ++decade_p)
+      check(3.7 * std::pow(10, decade_v - 1), 2.3 * std::pow(10, decade_p - 1));
+}
+
+TEST(PolynomialFriction, ThreePartsAddUpToTheLawOverDecades)
+{
+  for (const double a : pressure_exponents) {
+    const auto law = every_kind(a);
+    over_decades([&](double v, double p) {
+      const double tau = law.static_strength(p).value + law.steep_stress(v, p) + law.sliding(v, p).over_v * v;
+      EXPECT_NEAR(tau / (mu_of_every_kind(v) * law.load(p)), 1, 8 * eps);
+      EXPECT_NEAR(law.coefficient(v, p) * p / tau, 1, 8 * eps);
+      if (p >= law.pressure_floor) {
+        EXPECT_NEAR(law.load(p) / std::pow(p, a), 1, 2 * eps);
+      }
+    });
+  }
+}
+
+TEST(PolynomialFriction, WithoutAnExponentBelowOneNothingIsSteep)
+{
+  EXPECT_FALSE(mixed.has_steep_part());
+  EXPECT_EQ(mixed.steep_stress(0.7, 1.3), 0);
+  EXPECT_FALSE((PolynomialFriction<double>{{0.1, 0, 0.2}, {0, 0.5, 1}}).has_steep_part()); // its coefficient is 0
+  EXPECT_TRUE(every_kind(1).has_steep_part());
+  EXPECT_LT(every_kind(1).sliding(0.7, 1.3).over_v, 0); // what weakens stays in the smooth part
+}
+
+TEST(PolynomialFriction, SteepSpeedIsTheInverseOverDecades)
+{
+  const PolynomialFriction<double> laws[] = {{{0.37}, {0.1}},
+                                             {{0.37}, {0.25}},
+                                             {{0.37}, {0.5}},
+                                             {{0.37}, {0.9}},
+                                             {{0.29, 0.37, 0.11, 5.3, 0.023}, {0, 0.3, 0.7, 1, 2}}};
+  for (auto law : laws)
+    for (const double a : pressure_exponents)
+      for (const double drag : {1e-9, 0.013, 4.1e6}) {
+        law.pressure_exponent = a;
+        over_decades([&](double v, double p) {
+          const double stress = law.steep_stress(v, p) + drag * v;
+          // v ~ stress^(1/m) at the steepest: the round-off of the stress comes back ten times
+          EXPECT_NEAR(law.steep_speed(stress, drag, p) / v, 1, 64 * eps) << v << ' ' << p;
+        });
+      }
+}
+
+TEST(PolynomialFriction, SquareRootLawHasAClosedInverse)
+{
+  const double b = 0.37, drag = 0.019;
+  const PolynomialFriction<double> law{{b}, {0.5}};
+  // v is exp(log v), log v up to 60
+  over_decades([&](double stress, double p) {
+    const double root = 2 * stress / (b * p + std::sqrt(b * p * b * p + 4 * drag * stress)); // of v
+    using D = Dual<3>;
+    const D v = law.steep_speed(D::seed(stress, 0), D::seed(drag, 1), D::seed(p, 2));
+    const double slope = drag + b * p / (2 * root);
+    EXPECT_NEAR(v.v / (root * root), 1, 64 * eps);
+    EXPECT_NEAR(v.d[0] * slope, 1, 64 * eps);
+    EXPECT_NEAR(v.d[1] * slope / (-root * root), 1, 64 * eps);
+    EXPECT_NEAR(v.d[2] * slope / (-b * root), 1, 64 * eps);
+  });
+}
+
+TEST(PolynomialFriction, SteepSpeedDerivativesAgreeWithDifferences)
+{
+  using D = Dual<3>;
+  for (const double a : pressure_exponents) {
+    const auto law = every_kind(a);
+    over_decades([&](double stress, double p) {
+      const double at[3] = {stress, 0.13, p};
+      const D v = law.steep_speed(D::seed(at[0], 0), D::seed(at[1], 1), D::seed(at[2], 2));
+      for (int i = 0; i < 3; ++i) {
+        const auto moved = [&](double by) {
+          double x[3] = {at[0], at[1], at[2]};
+          x[i] *= 1 + by;
+          return law.steep_speed(x[0], x[1], x[2]);
+        };
+        const double h = 1e-3, slope = (8 * (moved(h) - moved(-h)) - (moved(2 * h) - moved(-2 * h))) / (12 * h);
+        EXPECT_NEAR(v.d[i] * at[i] / v.v, slope / v.v, 1e-9) << stress << ' ' << p << ' ' << i;
+      }
+    });
+  }
+}
+
+TEST(PolynomialFriction, SteepSpeedGivesDerivativesWithRespectToTheCoefficients)
+{
+  auto law = every_kind(1).cast<Dual<1>>();
+  law.coefficients[2].d[0] = 1;
+  const double p = 1.9, drag = 0.13, stress = 0.7;
+  const Dual<1> v = law.steep_speed(stress, drag, p);
+  const double slope =
+      drag + p * (0.47 * 0.25 * std::pow(v.v, -0.75) + 0.23 * 0.5 / std::sqrt(v.v) + 0.047 + 0.026 * v.v);
+  EXPECT_NEAR(v.d[0] * slope / (-p * std::sqrt(v.v)), 1, 16 * eps);
+}
+
+/// At rest the inverse is flat: no stress, no speed, no slope, also where it underflows or nothing presses.
+TEST(PolynomialFriction, SteepSpeedIsFiniteInTheLimits)
+{
+  using D = Dual<3>;
+  const PolynomialFriction<double> law{{0.37}, {0.1}};
+  for (const double stress : {1e-300, 1e-40, 1e-3, 1e3})
+    for (const double p : {0.0, 1e-300, 1e-12, 10.0})
+      for (const double drag : {1e-12, 1e9}) {
+        const D v = law.steep_speed(D::seed(stress, 0), D::seed(drag, 1), D::seed(p, 2));
+        EXPECT_TRUE(isfinite(v)) << stress << ' ' << p << ' ' << drag << ": " << v;
+        EXPECT_GE(v.v, 0);
+        EXPECT_LE(v.v, stress / drag * (1 + 64 * eps)); // 700 in log v carries 700 eps
+        EXPECT_GE(v.d[0], 0);
+        EXPECT_LE(v.d[0], 1 / drag * (1 + eps));
+      }
+  const D at_rest = law.steep_speed(D::seed(1e-40, 0), D(1), D(1));
+  EXPECT_EQ(at_rest.v, 0); // 1e-396
+  EXPECT_EQ(at_rest.d[0], 0);
+}
+
+TEST(PolynomialFriction, LoadIsContinuousWithItsSlopeAndRises)
+{
+  for (const double a : {0.0, 0.3, 0.7}) {
+    const PolynomialFriction<double> law{{1}, {0}, a, 2e-4};
+    const double p_0 = law.pressure_floor;
+    const double below = std::nextafter(p_0, 0.0);
+    EXPECT_EQ(law.load(0.0), 0);
+    EXPECT_NEAR(law.load(below) / law.load(p_0), 1, 8 * eps);
+    EXPECT_NEAR(law.load_slope(below) * p_0 / law.load(p_0), a, 8 * eps);
+    EXPECT_NEAR(law.load_slope(p_0) * p_0 / law.load(p_0), a, 8 * eps);
+    for (double p = 1e-12; p < 10; p *= 1.7) {
+      const auto dual = law.load(Dual<1>::seed(p, 0));
+      EXPECT_NEAR(law.load_slope(p) * p / dual.v, dual.d[0] * p / dual.v, 8 * eps);
+      EXPECT_GE(law.load(1.7 * p), law.load(p));
+    }
+    EXPECT_NEAR(law.coefficient(0.0, 0.0) / law.coefficient(0.0, 1e-20), 1, 8 * eps); // its limit at p = 0
+  }
 }
 
 /// Torque under uniform pressure p = N / (pi R^2) and v = omega r, over N R.
@@ -143,6 +297,7 @@ TEST(Rheometer, UndefinedValuesAreNaN)
   EXPECT_TRUE(std::isnan(apparent_coefficient(viscous, 1.3, 0, 9.3, 0.7)));
   EXPECT_TRUE(std::isnan(apparent_coefficient(viscous, 0, 2.1, 9.3, 0))); // at rest a viscous law says nothing
   EXPECT_TRUE(std::isnan(apparent_coefficient({}, 1.3, 2.1, 9.3, 0.7)));
+  EXPECT_TRUE(std::isnan(apparent_coefficient({{0.2}, {1}, 0.7}, 1.3, 2.1, 9.3, 0.7))); // (3.13) needs tau = mu p
   EXPECT_NEAR(apparent_coefficient(coulomb, 1.3, 2.1, 9.3, 0), 1.5 * 1.3 / (2.1 * 9.3), 1e-16);
 }
 

@@ -115,7 +115,9 @@ TEST(OptionsScene, each_option_reaches_its_place)
                                           {"-bottom_maxwell_bulk_modulus", "90"},
                                           {"-bottom_maxwell_viscosities", "6,80"},
                                           {"-friction_coefficients", "0.3,0.02,0.004"},
-                                          {"-friction_exponents", "0,1,1.5"},
+                                          {"-friction_exponents", "0,0.5,1.5"},
+                                          {"-friction_pressure_exponent", "0.7"},
+                                          {"-friction_pressure_floor", "3e-4"},
                                           {"-schedule_end_times", "5,11"},
                                           {"-schedule_approach", "0.4,0.6"},
                                           {"-schedule_rates", "0.2,-0.3"},
@@ -140,7 +142,9 @@ TEST(OptionsScene, each_option_reaches_its_place)
   EXPECT_EQ(scene.bottom.material.branches[0].deviatoric_viscosity, 6);
   EXPECT_EQ(scene.bottom.material.branches[0].volumetric_viscosity, 80);
   EXPECT_EQ(scene.friction.coefficients, (std::vector<double>{0.3, 0.02, 0.004}));
-  EXPECT_EQ(scene.friction.exponents, (std::vector<double>{0, 1, 1.5}));
+  EXPECT_EQ(scene.friction.exponents, (std::vector<double>{0, 0.5, 1.5}));
+  EXPECT_EQ(scene.friction.pressure_exponent, 0.7);
+  EXPECT_EQ(scene.friction.pressure_floor, 3e-4);
   ASSERT_EQ(scene.schedule.size(), 2u);
   EXPECT_EQ(scene.schedule[1].start_time, 5);
   EXPECT_EQ(scene.schedule[1].end_approach, 0.6);
@@ -232,11 +236,14 @@ TEST(OptionsScene, wrong_values_are_refused_even_where_they_have_no_effect)
 
 TEST(OptionsScene, refuses_friction_the_program_cannot_do)
 {
-  expect_refused("-friction_exponents", "0,0.5");
   expect_refused("-friction_exponents", "-1,1");
-  expect_refused("-friction_pressure_exponent", "0.8");
+  expect_refused("-friction_pressure_exponent", "-0.1");
+  expect_refused("-friction_pressure_exponent", "1.1");
+  expect_refused("-friction_pressure_floor", "0");
   expect_refused("-friction_coefficients", "-0.1,8e-4"); // negative at rest
   EXPECT_TRUE(contains(refusal({{"-friction_coefficients", "1,2,3"}}), "equal lengths"));
+  const std::string falling = refusal({{"-friction_coefficients", "1,-0.2"}, {"-friction_exponents", "0,0.5"}});
+  EXPECT_TRUE(contains(falling, "-friction_coefficients = 1,-0.2: -0.2 with exponent 0.5")) << falling;
 }
 
 TEST(OptionsScene, refuses_inconsistent_schedules)
@@ -307,6 +314,7 @@ TEST(OptionsScene, notes_options_without_effect)
   const std::string smooth =
       joined(scene_from_options({{"-friction_law", "none"}, {"-friction_exponents", "0,1"}}).notes);
   EXPECT_TRUE(contains(smooth, "-friction_exponents")) << smooth;
+  EXPECT_TRUE(contains(joined(scene_from_options({{"-friction_pressure_floor", "1e-4"}}).notes), "pressure_floor"));
   const std::string apart = joined(scene_from_options({{"-initial_gap", "2"}}).notes);
   EXPECT_TRUE(contains(apart, "never pressed")) << apart;
   const std::string weak = joined(scene_from_options({{"-friction_coefficients", "0.1,-1e-3"}}).notes);

@@ -1,10 +1,12 @@
 /// What every friction law offers: tau(v, p), the tangential stress of a contact that slides at speed v >= 0 [mm/s]
-/// under the pressure p >= 0 [MPa], split at v -> 0+ into what a stick can hold and what the sliding adds to it:
+/// under the pressure p >= 0 [MPa], both per current area, split by what happens at v -> 0+:
 ///
-///     tau(v, p) = static_strength(p) + tau_1(v, p),    tau_1(0, p) = 0
+///     tau(v, p) = static_strength(p) + steep_stress(v, p) + tau_1(v, p),    steep_stress(0, p) = tau_1(0, p) = 0
 ///
-/// The contact conditions treat the first part as a set-valued threshold and the second as a smooth function of the
-/// velocity, so a law without the first part has no kink at all.
+/// static_strength is what a stick can hold, a set-valued threshold; steep_stress rises with v, with an infinite slope
+/// at v = 0 (or is 0 throughout), so its inverse is smooth there; tau_1 is smooth. steep_speed(stress, drag, p) is the
+/// v >= 0 that solves steep_stress(v, p) + drag v = stress, for stress, drag > 0. A law without the first two parts has
+/// no kink at all.
 #pragma once
 
 #include <concepts>
@@ -25,6 +27,8 @@ template <class T> struct SlidingStress {
   T d_p;    ///< d tau_1 / d p
 };
 
+/// A law that is linear in p is the same per reference and per current area.
+///
 /// `Law` may be asked with velocities and pressures of the scalar type T (double or Dual).
 template <class Law, class T>
 concept FrictionLaw = requires(const Law &law, const T &v, const T &p)
@@ -44,6 +48,18 @@ concept FrictionLaw = requires(const Law &law, const T &v, const T &p)
   {
     law.sliding(v, p).d_p
     } -> std::convertible_to<T>;
+  {
+    law.steep_stress(v, p)
+    } -> std::convertible_to<T>;
+  {
+    law.steep_speed(v, v, p)
+    } -> std::convertible_to<T>;
+  {
+    law.has_steep_part()
+    } -> std::convertible_to<bool>;
+  {
+    law.linear_in_pressure()
+    } -> std::convertible_to<bool>;
   {
     law.coefficient(v, p)
     } -> std::convertible_to<T>; // tau / p

@@ -21,7 +21,7 @@ inline double gong_coefficient(double torque, double normal_force, double radius
 /// Apparent coefficient for a polynomial law, eq. (3.13): the area mean of mu that goes with the torque T, for a
 /// rotation at `rate` [rad/s]. For exponents 0, 1, 2 it is eq. (3.11) once the factor R is put back into the first term
 /// of its denominator (b0 R / 3, as the general formula gives; the paper prints b0 / 3). NaN also where the law gives
-/// no torque.
+/// no torque, and where tau is not proportional to p.
 inline double apparent_coefficient(const PolynomialFriction<double> &law, double torque, double normal_force,
                                    double radius, double rate)
 {
@@ -32,7 +32,8 @@ inline double apparent_coefficient(const PolynomialFriction<double> &law, double
     force += mu / (m + 2);
     moment += mu / (m + 3);
   }
-  if (!(normal_force > 0 && radius > 0) || moment == 0) return std::numeric_limits<double>::quiet_NaN();
+  const bool defined = normal_force > 0 && radius > 0 && moment != 0 && law.linear_in_pressure();
+  if (!defined) return std::numeric_limits<double>::quiet_NaN();
   return force / (moment * radius) * std::abs(torque) / normal_force;
 }
 
