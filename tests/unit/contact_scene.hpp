@@ -148,6 +148,8 @@ Eigen::Matrix<T, Eigen::Dynamic, 1> whole_residual(const ContactScene &scene, co
     node.x = x[a], node.n = n[a];
     add_mortar_row(chain, a, facets, node);
     add_kinematics(geometry, a, state, y, node);
+    if (!law.linear_in_pressure())
+      node.area_ratio = nodal_area<T>(chain, a, geometry.nodes[a].tied, x) / geometry.nodes[a].weight();
     const auto rows = node_residual<T>(geometry, a, node, state.multiplier[a], state.stick_rate, law);
     residual.template segment<3>(3 * a) += rows.slave;
     if (geometry.nodes[a].tied >= 0) residual.template segment<3>(3 * geometry.nodes[a].tied) += rows.tied;

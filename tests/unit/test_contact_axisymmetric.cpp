@@ -230,6 +230,12 @@ TEST(AxisymmetricContact, JacobianIsExactInEveryState)
                         {"slip", 0, 12.5, -0.1, 3, {{0.02, 0.05, 0.01}, {0, 1, 2.5}}},
                         {"viscous", 0, 12.5, -0.1, 1, {{0.4}, {1}}},
                         {"frictionless", 0, 12.5, -0.1, 1, {}},
+                        {"square root", 0, 12.5, -0.1, 1, {{0.3}, {0.5}}},
+                        {"square root from rest", 0, 12.5, -0.1, 1e-9, {{0.3}, {0.5}}},
+                        {"all exponents", 0, 12.5, 0.7, 1, {{0.03, 0.05, 0.01, 0.02}, {0, 0.3, 1, 2.5}}},
+                        {"pressure exponent", 0, 12.5, -0.1, 1, {{0.03, 0.05}, {0, 1}, 0.4, 0.3}},
+                        {"Kagata", 0, 9.6, 0.2, 1, {{0.2}, {0.5}, 0.5, 1e-3}},
+                        {"adhesion", 0, 12.5, -0.1, 1, {{0.2, 0.1}, {0, 0.7}, 0, 0.4}},
                         {"overhang", 0, 9.6, -0.1, 1, mixed},
                         {"ring with overhang", 3, 9.6, 0.2, 1, mixed},
                         {"mixture", 0, 12.5, 0.7, 1, mixed}};

@@ -10,6 +10,7 @@
 /// What the rows mean: axisymmetric_node.hpp. The derivation: THEORY, section 3.
 #pragma once
 
+#include "tribogel/contact/axisymmetric_area.hpp"
 #include "tribogel/contact/axisymmetric_jacobian.hpp"
 #include "tribogel/contact/search.hpp"
 
@@ -84,7 +85,9 @@ public:
 
   /// Residual and, if `update` was asked for derivatives, Jacobian of slave node a. Without a multiplier the row is
   /// lambda = 0.
-  template <FrictionLaw<Dual<10>> Law> void node(int a, const Law &law, NodeBlock &block) const;
+  template <class Law>
+  requires FrictionLaw<Law, Dual<10>> && FrictionLaw<Law, Dual<11>>
+  void node(int a, const Law &law, NodeBlock &block) const;
 
   template <FrictionLaw<double> Law> NodeResult result(int a, const Law &law) const;
 
@@ -113,17 +116,23 @@ private:
           nodal_normal<double>(geometry.slave_chain, a, geometry.nodes[a].on_axis, [&](int b) { return at[b]; }));
     return normal;
   }
-  NodeContact<double> contact_of(int a) const
+  template <class Law> NodeContact<double> contact_of(int a, const Law &law) const
   {
     NodeContact<double> node;
     node.x = x[a];
     node.n = n[a];
     add_mortar_row(geometry.slave_chain, a, facets, node);
     add_kinematics(geometry, a, now, y, node);
+    if (!law.linear_in_pressure()) {
+      const auto &constants = geometry.nodes[a];
+      node.area_ratio = nodal_area(geometry.slave_chain, a, constants.tied, x) / constants.weight();
+    }
     return node;
   }
   bool is_folded(int f) const;
-  double current_area(int a) const;
+  template <int inputs, class Law>
+  Eigen::Matrix<double, 3, inputs> condition_slope(int a, const NodeContact<double> &contact, const Law &law) const;
+  void add_area_slope(int a, const Vector3<double> &condition, NodeBlock &block) const;
   void without_multiplier(int a, NodeBlock &block) const;
 };
 
@@ -165,10 +174,12 @@ inline MortarReport AxisymmetricContact::update(const ContactState<double> &stat
   return report;
 }
 
-template <FrictionLaw<Dual<10>> Law> void AxisymmetricContact::node(int a, const Law &law, NodeBlock &block) const
+template <class Law>
+requires FrictionLaw<Law, Dual<10>> && FrictionLaw<Law, Dual<11>>
+void AxisymmetricContact::node(int a, const Law &law, NodeBlock &block) const
 {
   if (!geometry.nodes[a].carries) return without_multiplier(a, block);
-  const NodeContact<double> contact = contact_of(a);
+  const NodeContact<double> contact = contact_of(a, law);
   const Vector3<double> &lambda = now.multiplier[a];
   const auto values = node_residual<double>(geometry, a, contact, lambda, now.stick_rate, law);
   block.slave_nodes = slave_neighbourhood(geometry, a);
@@ -184,21 +195,49 @@ template <FrictionLaw<Dual<10>> Law> void AxisymmetricContact::node(int a, const
   block.residual.tail<3>() = values.condition;
   if (!with_derivatives) return;
 
-  using D = Dual<10>; // multiplier 0..2, gap 3, velocity 4..6, normal 7..9
+  const NodeDerivative derivative(geometry, now, contact, y, dn, facets, a, block.slave_nodes);
+  if (law.linear_in_pressure()) return derivative.assemble(condition_slope<10>(a, contact, law), block.jacobian);
+  const Eigen::Matrix<double, 3, 11> slope = condition_slope<11>(a, contact, law);
+  derivative.assemble(slope.template leftCols<10>(), block.jacobian);
+  add_area_slope(a, slope.col(10), block);
+}
+
+/// d (D C) / d (multiplier 0..2, gap 3, velocity 4..6, normal 7..9, area ratio 10).
+template <int inputs, class Law>
+Eigen::Matrix<double, 3, inputs> AxisymmetricContact::condition_slope(int a, const NodeContact<double> &contact,
+                                                                      const Law &law) const
+{
+  using D = Dual<inputs>;
   ContactPoint<D> point;
   const double normal[3] = {contact.n.r, 0, contact.n.z};
   point.gap = D::seed(contact.gap, 3);
   for (int i = 0; i < 3; ++i) {
-    point.multiplier[i] = D::seed(lambda[i], i);
+    point.multiplier[i] = D::seed(now.multiplier[a][i], i);
     point.velocity[i] = D::seed(contact.velocity[i], 4 + i);
     point.normal[i] = D::seed(normal[i], 7 + i);
   }
+  if constexpr (inputs > 10) point.area_ratio = D::seed(contact.area_ratio, 10);
+  const auto &constants = geometry.nodes[a];
   const auto C = contact_condition<D>(point, {constants.c_N, constants.c_N / now.stick_rate}, law, constants.on_axis);
-  Eigen::Matrix<double, 3, 10> slope;
+  Eigen::Matrix<double, 3, inputs> slope;
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 10; ++j) slope(i, j) = constants.weight() * C.residual[i].d[j];
-  const NodeDerivative derivative(geometry, now, contact, y, dn, facets, a, block.slave_nodes);
-  derivative.assemble(slope, block.jacobian);
+    for (int j = 0; j < inputs; ++j) slope(i, j) = constants.weight() * C.residual[i].d[j];
+  return slope;
+}
+
+/// Through the area ratio the conditions depend on the positions of the facets' nodes.
+inline void AxisymmetricContact::add_area_slope(int a, const Vector3<double> &condition, NodeBlock &block) const
+{
+  const LineChain &chain = geometry.slave_chain;
+  const int tied = geometry.nodes[a].tied;
+  const double weight = geometry.nodes[a].weight();
+  const auto slope = chain.facet_nodes == 2 ? nodal_area_derivative<2>(chain, a, tied, x, block.slave_nodes)
+                                            : nodal_area_derivative<3>(chain, a, tied, x, block.slave_nodes);
+  for (std::size_t b = 0; b < slope.size(); ++b) {
+    const Eigen::Index column = 3 * static_cast<Eigen::Index>(b);
+    block.jacobian.bottomRows<3>().col(column) += slope[b].r / weight * condition;
+    block.jacobian.bottomRows<3>().col(column + 2) += slope[b].z / weight * condition;
+  }
 }
 
 inline void AxisymmetricContact::without_multiplier(int a, NodeBlock &block) const
@@ -230,29 +269,6 @@ inline bool AxisymmetricContact::is_folded(int f) const
   return geometry.slave_chain.facet_nodes == 2 ? ends.operator()<2>() : ends.operator()<3>();
 }
 
-inline double AxisymmetricContact::current_area(int a) const
-{
-  static const auto rule = gauss_rule<5>();
-  const LineChain &chain = geometry.slave_chain;
-  const int tied = geometry.nodes[a].tied;
-  const auto over_facet = [&]<int nodes>(LineChain::FacetNode at) {
-    const auto points = chain.on_facet<nodes>(at.facet, x);
-    double area = 0;
-    for (int q = 0; q < 5; ++q) {
-      const auto shape = facet_shape<nodes>(rule.point[q]);
-      const double N = shape.N[at.local] + (chain.facets[at.facet][0] == tied ? shape.N[0] : 0);
-      area += rule.weight[q] * N * 2 * std::numbers::pi * interpolate(shape.N, points).r *
-              length(interpolate(shape.dN, points));
-    }
-    return area;
-  };
-  double area = 0;
-  for (int k = 0; k < chain.neighbours[a].count; ++k)
-    area += chain.facet_nodes == 2 ? over_facet.template operator()<2>(chain.neighbours[a].of[k])
-                                   : over_facet.template operator()<3>(chain.neighbours[a].of[k]);
-  return area;
-}
-
 template <FrictionLaw<double> Law> NodeResult AxisymmetricContact::result(int a, const Law &law) const
 {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -260,9 +276,9 @@ template <FrictionLaw<double> Law> NodeResult AxisymmetricContact::result(int a,
   const Vector3<double> undefined = Vector3<double>::Constant(nan);
   if (!constants.carries)
     return {false, ContactStatus::open, constants.weight(), nan, nan, nan, undefined, undefined, undefined, undefined};
-  const NodeContact<double> node = contact_of(a);
+  const NodeContact<double> node = contact_of(a, law);
   const Vector3<double> &lambda = now.multiplier[a], normal(node.n.r, 0, node.n.z);
-  const double area = current_area(a);
+  const double area = nodal_area(geometry.slave_chain, a, constants.tied, x);
   const Vector3<double> cauchy = constants.weight() / area * lambda;
   const ContactStatus status = node_residual<double>(geometry, a, node, lambda, now.stick_rate, law).status;
   return {true,   status,   constants.weight(),

@@ -30,6 +30,7 @@ template <class T> struct NodeContact {
   PlanePoint<T> x, n;       ///< position, normal out of the slave
   T gap = 0;                ///< [mm], >= 0 when open
   Vector3<T> velocity;      ///< slave minus master [mm/s]
+  T area_ratio = 1;         ///< current over reference area, set for laws that are not linear in the pressure
   T spin = 0;               ///< relative angular velocity, velocity_theta / r [rad/s]
 };
 
@@ -94,7 +95,7 @@ NodeResidual<T> node_residual(const ContactGeometry &geometry, int a, const Node
                               const Vector3<T> &multiplier, double stick_rate, const Law &law)
 {
   const auto &constants = geometry.nodes[a];
-  const ContactPoint<T> point{multiplier, {node.n.r, T(0), node.n.z}, node.gap, node.velocity};
+  const ContactPoint<T> point{multiplier, {node.n.r, T(0), node.n.z}, node.gap, node.velocity, node.area_ratio};
   const auto condition =
       contact_condition<T>(point, {constants.c_N, constants.c_N / stick_rate}, law, constants.on_axis);
   const Vector3<T> force = conjugate_force<T>(multiplier, node.x.r, geometry.twist_length);
