@@ -144,6 +144,12 @@ TEST(SteepCondition, IsContinuouslyDifferentiableAtRest)
         EXPECT_LT((beside - at_rest).norm(), tolerance * at_rest.norm());
       }
     }
+  // nothing at all but pressure: the row is the velocity
+  Vector11 pressed = pack({0, 0, 1.7}, 0, Vector3<double>::Zero(), 1);
+  pressed.segment<3>(7) = Vector3<double>(0, 0, -1);
+  const auto loaded = jacobian(pressed, {{0.4}, {0.5}});
+  EXPECT_EQ(loaded(1, 1), 0);
+  EXPECT_EQ(loaded(1, 5), scale.tangential);
   // no pressure yet: the row is the multiplier
   const auto unloaded = jacobian(pack({0, 0, 0}, 0, Vector3<double>::Zero(), 1), {{0.4}, {0.5}});
   EXPECT_TRUE(unloaded.allFinite());
