@@ -23,6 +23,7 @@ struct Case {
   std::vector<double> coefficients, exponents;
   double traction; ///< largest random traction [MPa]
   bool wanted[3];  ///< open, stick, slip must occur
+  double pressure_exponent = 1;
 };
 
 Scene scene_of(const Case &c)
@@ -32,7 +33,7 @@ Scene scene_of(const Case &c)
   scene.bottom.material = hyperelastic_gel(); // history on one side of the contact only
   scene.top.material.branches[0].deviatoric_viscosity = 2.7;
   scene.initial_gap = c.gap;
-  scene.friction = {c.coefficients, c.exponents};
+  scene.friction = {c.coefficients, c.exponents, c.pressure_exponent, 0.3}; // pressures on both sides of the floor
   scene.schedule = schedule_from_rates({2.3, 4.1}, {0.31, 0.37}, {0.013, 0.17});
   scene.bottom_plate_rate = 0.021;
   scene.mesh.grading = 2;
@@ -132,6 +133,26 @@ TEST_P(jacobian, OfALongStep)
 TEST_P(jacobian, OfAFaceThatHangsOverTheEdge)
 {
   check({GetParam(), 9.7, 0.03, {0.83, 0.07}, {0, 1}, 1.5, {true, true, true}}, 0.37);
+}
+
+TEST_P(jacobian, OfASquareRootLaw)
+{
+  check({GetParam(), 12.5, 0.03, {0.3}, {0.5}, 1.3, {true, false, true}}, 0.37);
+}
+
+TEST_P(jacobian, OfExponentsBelowAndAboveOne)
+{
+  check({GetParam(), 12.5, 0.03, {0.83, 0.3, 0.07, 0.011}, {0, 0.5, 1, 2}, 1.3, {true, true, true}}, 0.37);
+}
+
+TEST_P(jacobian, OfAPressureExponent)
+{
+  check({GetParam(), 12.5, 0.03, {0.83, 0.07}, {0, 1}, 1.3, {true, true, true}, 0.4}, 0.37);
+}
+
+TEST_P(jacobian, OfKagatasLawOverTheEdge)
+{
+  check({GetParam(), 9.7, 0.03, {0.3}, {0.7}, 1.3, {true, false, true}, 0.5}, 0.37);
 }
 
 INSTANTIATE_TEST_SUITE_P(order, jacobian, ::testing::Values(1, 2));
