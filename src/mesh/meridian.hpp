@@ -4,6 +4,7 @@
 #include "tribogel/scene/scene.hpp"
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace tribogel
@@ -16,11 +17,13 @@ inline constexpr const char *side_names[side_count] = {"axis", "wall", "top_plat
 
 inline constexpr int bottom_body = 0, top_body = 1;
 
-/// One body: the tensor grid R x Z with a name for each of its four sides.
+/// One body: the tensor grid R x Z with a name for each of its four sides, deformed if it has a shape. The two contact
+/// sides must run outwards (R grows along them), and an axis must stay at R = 0.
 struct MeridianBlock {
   int body;
   std::vector<double> R, Z; ///< increasing [mm]
   Side inner, outer, lower, upper;
+  std::function<std::array<double, 2>(double R, double Z)> shape = {}; ///< smooth, position [mm]; empty: (R, Z) itself
 
   long cells() const { return static_cast<long>(R.size() - 1) * static_cast<long>(Z.size() - 1); }
 };

@@ -63,15 +63,15 @@ PetscErrorCode LabelBlocks(DM dm, const std::vector<MeridianBlock> &blocks)
 
 } // namespace
 
-PetscErrorCode Mesh::Build(MPI_Comm comm, const Scene &scene)
+PetscErrorCode Mesh::Build(MPI_Comm comm, const Scene &scene, const std::vector<MeridianBlock> &blocks)
 {
   PetscFunctionBeginUser;
   order = scene.mesh.element_order;
-  const std::vector<MeridianBlock> blocks = meridian_blocks(scene);
   PetscCall(Create(comm, blocks));
   PetscCall(Distribute(blocks));
   PetscCall(Number(scene));
   PetscCall(Tabulate());
+  PetscCall(Shape(blocks));
   if (scene.has_top) {
     PetscCall(GatherSurface(*this, Side::slave, top_body, 0, slave));
     PetscCall(GatherSurface(*this, Side::master, bottom_body, 0, master));
@@ -300,6 +300,30 @@ PetscErrorCode Mesh::Tabulate()
     for (int a = 0; a < nodes_per_cell(); ++a) nodes[cell.node[a]].body = cell.body;
     cells.push_back(cell);
   }
+  PetscFunctionReturn(0);
+}
+
+/// Moves the nodes, and the DM's vertices with them, from their places in the grid to the blocks' shapes.
+PetscErrorCode Mesh::Shape(const std::vector<MeridianBlock> &blocks)
+{
+  Vec coordinates;
+  PetscSection section;
+  PetscScalar *X;
+  PetscInt first, last, offset;
+  PetscFunctionBeginUser;
+  PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
+  PetscCall(DMGetCoordinateSection(dm, &section));
+  PetscCall(DMPlexGetDepthStratum(dm, 0, &first, &last));
+  PetscCall(VecGetArray(coordinates, &X));
+  for (Node &node : nodes) {
+    for (const MeridianBlock &block : blocks)
+      if (block.body == node.body && block.shape) node.X = block.shape(node.X[0], node.X[1]);
+    if (node.point < first || node.point >= last) continue;
+    PetscCall(PetscSectionGetOffset(section, node.point, &offset));
+    for (int j = 0; j < 2; ++j) X[offset + j] = node.X[j];
+  }
+  PetscCall(VecRestoreArray(coordinates, &X));
+  PetscCall(DMSetCoordinatesLocal(dm, coordinates)); // drops the global ones
   PetscFunctionReturn(0);
 }
 

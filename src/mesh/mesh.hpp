@@ -47,8 +47,9 @@ struct SurfaceChain {
 class Mesh
 {
 public:
-  /// Build, distribute and number the scene's mesh. Collective.
-  PetscErrorCode Build(MPI_Comm comm, const Scene &scene);
+  /// Build, distribute and number the mesh of `blocks`, one a body. All nodes, midside ones too, lie on the blocks'
+  /// shapes. Collective.
+  PetscErrorCode Build(MPI_Comm comm, const Scene &scene, const std::vector<MeridianBlock> &blocks);
 
   DmHandle dm;
   int order = 2;
@@ -65,6 +66,7 @@ private:
   PetscErrorCode Distribute(const std::vector<MeridianBlock> &blocks);
   PetscErrorCode Number(const Scene &scene);
   PetscErrorCode Tabulate();
+  PetscErrorCode Shape(const std::vector<MeridianBlock> &blocks);
   PetscErrorCode Constrain(PetscSection section, PetscInt point, unsigned sides, PlateBond bond, bool indices);
 };
 

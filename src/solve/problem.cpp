@@ -7,11 +7,16 @@ namespace tribogel
 
 PetscErrorCode Problem::SetUp(MPI_Comm comm, const Scene &given)
 {
+  return SetUp(comm, given, meridian_blocks(given));
+}
+
+PetscErrorCode Problem::SetUp(MPI_Comm comm, const Scene &given, const std::vector<MeridianBlock> &blocks)
+{
   PetscFunctionBeginUser;
   scene = given;
   PetscCall(events.Register());
   PetscCall(PetscLogEventBegin(events.mesh, 0, 0, 0, 0));
-  PetscCall(mesh.Build(comm, scene));
+  PetscCall(mesh.Build(comm, scene, blocks));
   PetscCall(PetscLogEventEnd(events.mesh, 0, 0, 0, 0));
   PetscCall(Bulk::Create(mesh, scene, bulk));
   if (scene.has_top || scene.plate_contact) {

@@ -45,6 +45,10 @@ class Problem
 public:
   PetscErrorCode SetUp(MPI_Comm comm, const Scene &scene);
 
+  /// The same with bodies of another outline than the scene's cylinders, whose radii and heights then only scale (the
+  /// twist's length, coefficients of friction).
+  PetscErrorCode SetUp(MPI_Comm comm, const Scene &scene, const std::vector<MeridianBlock> &blocks);
+
   PetscErrorCode SetFromOptions(); ///< TS, SNES, KSP, PC
 
   /// One linear solve with a zero right-hand side: makes PETSc's inner solvers read their options.

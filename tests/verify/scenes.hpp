@@ -48,14 +48,19 @@ inline Scene lubricated_discs(double radius, double top_height, double bottom_he
   return scene;
 }
 
-/// Runs the scene, nothing written. The schedule must complete.
-inline void run(const Scene &scene, Problem &problem, Recorder &recorder)
+/// Runs the scene with bodies of these outlines, nothing written. The schedule must complete.
+inline void run(const Scene &scene, const std::vector<MeridianBlock> &blocks, Problem &problem, Recorder &recorder)
 {
   bool completed = false;
   std::string why;
-  ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, scene), 0);
+  ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, scene, blocks), 0);
   ASSERT_EQ(problem.Run({&recorder}, completed, why), 0);
   ASSERT_TRUE(completed) << why;
+}
+
+inline void run(const Scene &scene, Problem &problem, Recorder &recorder)
+{
+  run(scene, meridian_blocks(scene), problem, recorder);
 }
 
 } // namespace tribogel::test
