@@ -64,6 +64,7 @@ struct Elastic {
     const double K = law.bulk_modulus;
     nu = (3 * K - 2 * G) / (2 * (3 * K + G));
   }
+  double young() const { return 2 * G * (1 + nu); }
   double plane() const { return 2 * G / (1 - nu); } ///< E/(1 - nu^2)
 };
 

@@ -19,10 +19,10 @@ namespace tribogel::test
 namespace
 {
 
-constexpr double a = 1.3, pi = std::numbers::pi, bulk_over_shear = 5;
+constexpr double a = 1.3, pi = std::numbers::pi;
 
 /// The punch is this much stiffer than the block and counts as rigid: its own compliance is corrected in torsion.
-constexpr double stiffness_ratio = 1e5;
+constexpr double stiffness_ratio = 1e4;
 
 /// 0 to `length` in n steps, finer towards 0.
 std::vector<double> towards_zero(double length, int n, double grade)
@@ -60,14 +60,15 @@ struct Punch {
   int order, elements; ///< along a, on the block; 5/4 of it on the punch
   double width = 10;   ///< L/a
   PolynomialFriction<double> friction{};
+  double bulk_over_shear = 5; ///< of the block
 };
 
-const PhaseEnd &last_phase(const Punch &is, double twist, Problem &problem, Recorder &recorder)
+PhaseEnd last_phase(const Punch &is, double twist, Problem &problem, Recorder &recorder)
 {
-  const double L = is.width * a, G = 0.4, grade = is.order == 1 ? 3 : 5, depth = 1e-5 * a;
+  const double L = is.width * a, G = 0.4, grade = 3, depth = 1e-5 * a;
   Scene scene;
-  scene.top = {a, a, neo_hookean(stiffness_ratio * G, bulk_over_shear)};
-  scene.bottom = {L, L, neo_hookean(G, bulk_over_shear)};
+  scene.top = {a, a, neo_hookean(stiffness_ratio * G, 5)};
+  scene.bottom = {L, L, neo_hookean(G, is.bulk_over_shear)};
   scene.mesh.element_order = is.order;
   scene.friction = is.friction;
   scene.schedule = schedule_from_twists({1, 2}, {depth, depth}, {0, twist});
@@ -76,7 +77,7 @@ const PhaseEnd &last_phase(const Punch &is, double twist, Problem &problem, Reco
       upper_body(around_edge(is.elements * 5 / 4, grade, a), towards_zero(a, is.elements, grade))};
   const SolverOptions options(fixed_steps(1, 1e-10));
   run(scene, blocks, problem, recorder);
-  return recorder.phases.back();
+  return recorder.phases.empty() ? PhaseEnd{} : recorder.phases.back();
 }
 
 /// delta/F times 2 E* a.
@@ -84,9 +85,10 @@ double compliance(const Punch &is)
 {
   Problem problem;
   Recorder recorder("");
-  const PhaseEnd &end = last_phase(is, 0, problem, recorder);
+  const PhaseEnd end = last_phase(is, 0, problem, recorder);
   const double E = Elastic(problem.scene.bottom.material.equilibrium).plane();
-  return end.approach / end.measurement.normal_force * 2 * E * a;
+  const double own = 1 / (pi * a * stiffness_ratio * Elastic(problem.scene.bottom.material.equilibrium).young());
+  return (end.approach / end.measurement.normal_force - own) * 2 * E * a;
 }
 
 double indentation_error(int order, int elements, double width)
@@ -101,10 +103,10 @@ double indentation_error(int order, int elements, double width)
 
 double torsion_error(int order, int elements)
 {
-  Punch is{order, elements, 10, {{1e3}, {0}}};
+  Punch is{order, elements, 10, {{2}, {0}}, 1e3};
   Problem problem;
   Recorder recorder("");
-  const double theta = 1e-5, T = last_phase(is, theta, problem, recorder).measurement.torque;
+  const double theta = 1e-6, T = last_phase(is, theta, problem, recorder).measurement.torque;
   const double G = problem.scene.bottom.material.equilibrium.shear_modulus();
   const double own = 2 / (pi * stiffness_ratio * G * std::pow(a, 3)); // compliance of a cylinder as high as wide
   const double error = T / (theta - T * own) / (16.0 / 3 * G * std::pow(a, 3)) - 1;
@@ -118,7 +120,7 @@ double torsion_error(int order, int elements)
 TEST(punch, Indentation)
 {
   for (int order : {1, 2})
-    for (int elements : {4, 8, 16}) indentation_error(order, elements, 10);
+    for (int elements : {4, 8, 16}) indentation_error(order, elements, 20);
 }
 
 TEST(punch, Torsion)
