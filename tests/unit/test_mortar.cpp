@@ -175,6 +175,25 @@ TEST(LineMortar, ReportsTheOverhangAndKeepsItsBalance)
   }
 }
 
+/// A master node on the normal line of a slave's end, up to round-off, as where both stick: the root may come out just
+/// beyond the facet, the more so the shorter the facet.
+TEST(LineMortar, EndsThatCoincideUpToRoundOffAreNoFold)
+{
+  for (int k = 1; k < 2000; ++k) {
+    const double length = 3e-5 * k, tilt = 7e-4 * k;
+    const FacetPoints<2, double> x{{{12.3 - length, 0.1 * length}, {12.3, 0}}}, n{{{0.01, -1}, {std::sin(tilt), -1}}};
+    const FacetMeasure<2> measure = facet_measure<2>(x);
+    const double depth = 1e-6 * k * length;
+    const PlanePoint<double> shared{x[1].r + depth * n[1].r, x[1].z + depth * n[1].z};
+    const PlanePoint<double> inner{shared.r - 2 * length, shared.z}, outer{shared.r + length, shared.z};
+    const auto before = line_pair_mortar<2, double>(measure, {x, n, {{inner, shared}}});
+    const auto behind = line_pair_mortar<2, double>(measure, {x, n, {{shared, outer}}});
+    EXPECT_EQ(before.status, MortarStatus::ok);
+    EXPECT_EQ(behind.status, MortarStatus::ok);
+    EXPECT_NEAR(before.covered + behind.covered, 2, 1e-12);
+  }
+}
+
 TEST(LineMortar, CoincidentEndsLeaveNothingUndefined)
 {
   // the same facet, and neighbours that only share an end: empty cells, no NaN

@@ -134,7 +134,9 @@ private:
       out.status = MortarStatus::no_projection;
     else if (!(value(line.slope) > 0))
       out.status = MortarStatus::folded;
-    return xi - line.offset / line.slope;
+    const T root = xi - line.offset / line.slope;
+    if (value(root) < -1) return T(-1); // by round-off, which short facets far from the axis magnify
+    return value(root) > 1 ? T(1) : root;
   }
 
   /// Shape functions of the master facet where the normal line from `point` meets it.
