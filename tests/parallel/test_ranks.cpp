@@ -1,6 +1,7 @@
 /// Any number of ranks gives the numbers of one: the same scene with equal fixed steps on all ranks of PETSC_COMM_WORLD
 /// and, alone, on PETSC_COMM_SELF. Newton goes on to 1e-12 of the forces, the solver is direct, so that what is left is
 /// the round-off of another order of summation: |dN| <= 1e-10 max N, |dT| <= 1e-10 max N R at every step.
+#include "hertz.hpp"
 #include "probe.hpp"
 
 namespace tribogel::test
@@ -18,11 +19,12 @@ Scene scene_of(int order, double mu_0)
   return scene;
 }
 
-void run_on(MPI_Comm comm, const Scene &scene, Problem &problem, Recorder &recorder)
+void run_on(MPI_Comm comm, const Scene &scene, const std::vector<MeridianBlock> &blocks, Problem &problem,
+            Recorder &recorder)
 {
   bool completed = false;
   std::string why;
-  ASSERT_EQ(problem.SetUp(comm, scene), 0);
+  ASSERT_EQ(problem.SetUp(comm, scene, blocks), 0);
   ASSERT_EQ(problem.Run({&recorder}, completed, why), 0);
   ASSERT_TRUE(completed) << why;
 }
@@ -46,8 +48,8 @@ TEST_P(ranks, GiveTheNumbersOfOne)
   const Scene scene = scene_of(order, mu_0);
   Problem shared, single;
   Recorder many(""), one("");
-  run_on(PETSC_COMM_WORLD, scene, shared, many);
-  run_on(PETSC_COMM_SELF, scene, single, one);
+  run_on(PETSC_COMM_WORLD, scene, meridian_blocks(scene), shared, many);
+  run_on(PETSC_COMM_SELF, scene, meridian_blocks(scene), single, one);
 
   ASSERT_EQ(many.rows.size(), one.rows.size());
   ASSERT_EQ(many.rows.size(), 19u); // the initial state and 18 steps of half a second
@@ -68,6 +70,26 @@ TEST_P(ranks, GiveTheNumbersOfOne)
 INSTANTIATE_TEST_SUITE_P(scenes, ranks,
                          ::testing::Values(std::pair{1, 0.0}, std::pair{2, 0.0}, std::pair{1, 0.07},
                                            std::pair{2, 0.07}));
+
+/// So does an outline that no option gives: a spherical cap of curved elements, pressed and turned.
+TEST(ranks_outline, GivesTheNumbersOfOne)
+{
+  const SolverOptions options(fixed_steps(0.5, 1e-12));
+  const HertzScene is{2, 0, {{0.1, 0.3}, {0, 1}}, 8, 0.05};
+  const Scene scene = is.scene(schedule_from_twists({1, 2}, {is.approach(), is.approach()}, {0, 0.02}));
+  Problem shared, single;
+  Recorder many(""), one("");
+  run_on(PETSC_COMM_WORLD, scene, is.blocks(), shared, many);
+  run_on(PETSC_COMM_SELF, scene, is.blocks(), single, one);
+  ASSERT_EQ(many.rows.size(), one.rows.size());
+  for (const Node &node : shared.mesh.nodes)
+    if (node.on(Side::slave))
+      EXPECT_NEAR(std::hypot(node.X[0], node.X[1] - is.sphere()), is.sphere(), 1e-13 * is.sphere());
+  const Measurement &a = many.rows.back().measurement, &b = one.rows.back().measurement;
+  EXPECT_GT(b.torque, 1e-3 * b.normal_force * is.a);
+  EXPECT_NEAR(a.normal_force / b.normal_force, 1, 1e-9);
+  EXPECT_NEAR(a.torque / b.torque, 1, 1e-9);
+}
 
 /// Each cell and each unknown has one rank; the load is shared.
 TEST(ranks_partition, SharesTheCellsOut)

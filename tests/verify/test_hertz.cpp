@@ -118,8 +118,9 @@ TEST(hertz, RadiusAndPressure)
     const int finest = order == 1 ? 2 : 1; // as many unknowns
     const Errors coarse = print_errors({order, finest - 1}), fine = print_errors({order, finest});
     EXPECT_LT(fine.radius, 2.5e-3);
-    EXPECT_LT(fine.pressure, 0.04);
-    EXPECT_LT(fine.pressure, 0.6 * coarse.pressure);
+    EXPECT_LT(fine.pressure, 0.02);
+    EXPECT_LT(fine.pressure, 0.5 * coarse.pressure);
+    EXPECT_LT(fine.radius, 0.4 * coarse.radius);
     EXPECT_LT(fine.nodal, 0.03);
     EXPECT_LE(fine.edge, 1);
   }
@@ -143,6 +144,8 @@ TEST(hertz, SteepCap)
     excess[k] = print_errors({2, 0, {}, 8, slope}).force / slope * flat / flat_force - 1;
     std::printf("a/R %.4f: excess of N %.2e\n", slope, excess[k]);
   }
+  for (int k = 0; k < 2; ++k) EXPECT_NEAR(excess[k] / excess[k + 1], 2, 0.2);
+  EXPECT_LT(std::abs(excess[0]), 0.01);
 }
 
 /// The tables of tests/README.md.

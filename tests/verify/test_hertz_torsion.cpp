@@ -138,23 +138,28 @@ TEST(hertz_torsion, LubkinsNumbers)
 
 TEST(hertz_torsion, PartialAndFullSlip)
 {
-  for (int order : {1, 2})
-    for (int level : {0, 1, 2}) coulomb_errors(order, level);
+  for (int order : {1, 2}) {
+    const auto error = coulomb_errors(order, order == 1 ? 2 : 1);
+    for (double e : error) EXPECT_LT(std::abs(e), 0.01);
+  }
 }
 
 TEST(hertz_torsion, ViscousLaws)
 {
   for (int order : {1, 2})
-    for (int m : {1, 2})
-      for (int level : {0, 1, 2}) viscous_error(order, level, m);
+    for (int m : {1, 2}) {
+      EXPECT_LT(std::abs(viscous_error(order, order == 1 ? 2 : 1, m)), 0.005);
+    }
 }
 
+/// The tables of tests/README.md.
 TEST(hertz_torsion, DISABLED_Table)
 {
   for (int order : {1, 2}) {
-    for (int level : {0, 1, 2, 3}) coulomb_errors(order, level);
+    const int finest = order == 1 ? 3 : 2;
+    for (int level = 0; level <= finest; ++level) coulomb_errors(order, level);
     for (int m : {1, 2})
-      for (int level : {0, 1, 2, 3}) viscous_error(order, level, m);
+      for (int level = 0; level <= finest; ++level) viscous_error(order, level, m);
   }
 }
 

@@ -8,7 +8,8 @@
 /// coefficient that nothing overcomes is the bond.
 ///
 /// The tractions are infinite at the edge, as the root of 1/distance. Meshes whose n-th line from the edge lies at a
-/// distance proportional to n^grade restore the elements' orders of the energy, 2 and 4 (grade > 2 and > 4).
+/// distance proportional to n^grade restore order 2 of the energy for elements of order 1 (grade > 2); with grade 3 the
+/// others have order 3. Finer edges than the indentation would fold.
 #include "outlines.hpp"
 
 #include <numbers>
@@ -103,10 +104,10 @@ double indentation_error(int order, int elements, double width)
 
 double torsion_error(int order, int elements)
 {
-  Punch is{order, elements, 10, {{2}, {0}}, 1e3};
+  Punch is{order, elements, 20, {{20}, {0}}, 1e3};
   Problem problem;
   Recorder recorder("");
-  const double theta = 1e-6, T = last_phase(is, theta, problem, recorder).measurement.torque;
+  const double theta = 1e-5, T = last_phase(is, theta, problem, recorder).measurement.torque;
   const double G = problem.scene.bottom.material.equilibrium.shear_modulus();
   const double own = 2 / (pi * stiffness_ratio * G * std::pow(a, 3)); // compliance of a cylinder as high as wide
   const double error = T / (theta - T * own) / (16.0 / 3 * G * std::pow(a, 3)) - 1;
@@ -119,12 +120,27 @@ double torsion_error(int order, int elements)
 
 TEST(punch, Indentation)
 {
-  for (int order : {1, 2})
-    for (int elements : {4, 8, 16}) indentation_error(order, elements, 20);
+  const double coarse = indentation_error(1, 4, 20), fine = indentation_error(1, 8, 20);
+  EXPECT_GT(std::log2(coarse / fine), 1.7);
+  EXPECT_LT(fine, 0.012);
+  EXPECT_LT(std::abs(indentation_error(2, 8, 20)), 3e-4);
 }
 
 TEST(punch, Torsion)
 {
+  const double coarse = torsion_error(1, 4), fine = torsion_error(1, 8);
+  EXPECT_GT(std::log2(coarse / fine), 1.8);
+  EXPECT_LT(fine, 0.02);
+  const double coarse2 = torsion_error(2, 4), fine2 = torsion_error(2, 8);
+  EXPECT_GT(std::log2(coarse2 / fine2), 2.8);
+  EXPECT_LT(std::abs(fine2), 1e-3);
+}
+
+/// The tables of tests/README.md.
+TEST(punch, DISABLED_Table)
+{
+  for (int order : {1, 2})
+    for (int elements : {4, 8, 16}) indentation_error(order, elements, 20);
   for (int order : {1, 2})
     for (int elements : {4, 8, 16}) torsion_error(order, elements);
 }
