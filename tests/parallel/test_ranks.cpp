@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(scenes, ranks,
 /// So does an outline that no option gives: a spherical cap of curved elements, pressed and turned.
 TEST(ranks_outline, GivesTheNumbersOfOne)
 {
-  const SolverOptions options(fixed_steps(0.5, 1e-12));
+  const SolverOptions options(fixed_steps(1, 1e-12));
   const HertzScene is{2, 0, {{0.1, 0.3}, {0, 1}}, 8, 0.05};
   const Scene scene = is.scene(schedule_from_twists({1, 2}, {is.approach(), is.approach()}, {0, 0.02}));
   Problem shared, single;
@@ -83,8 +83,9 @@ TEST(ranks_outline, GivesTheNumbersOfOne)
   run_on(PETSC_COMM_SELF, scene, is.blocks(), single, one);
   ASSERT_EQ(many.rows.size(), one.rows.size());
   for (const Node &node : shared.mesh.nodes)
-    if (node.on(Side::slave))
+    if (node.on(Side::slave)) {
       EXPECT_NEAR(std::hypot(node.X[0], node.X[1] - is.sphere()), is.sphere(), 1e-13 * is.sphere());
+    }
   const Measurement &a = many.rows.back().measurement, &b = one.rows.back().measurement;
   EXPECT_GT(b.torque, 1e-3 * b.normal_force * is.a);
   EXPECT_NEAR(a.normal_force / b.normal_force, 1, 1e-9);

@@ -148,19 +148,22 @@ TEST(hertz_torsion, ViscousLaws)
 {
   for (int order : {1, 2})
     for (int m : {1, 2}) {
-      EXPECT_LT(std::abs(viscous_error(order, order == 1 ? 2 : 1, m)), 0.005);
+      EXPECT_LT(std::abs(viscous_error(order, order == 1 ? 2 : 1, m)), 0.006);
     }
 }
 
 /// The tables of tests/README.md.
-TEST(hertz_torsion, DISABLED_Table)
+TEST(hertz_torsion, DISABLED_TableOfCoulomb)
 {
-  for (int order : {1, 2}) {
-    const int finest = order == 1 ? 3 : 2;
-    for (int level = 0; level <= finest; ++level) coulomb_errors(order, level);
+  for (int order : {2, 1})
+    for (int level = 0; level <= (order == 1 ? 3 : 2); ++level) coulomb_errors(order, level);
+}
+
+TEST(hertz_torsion, DISABLED_TableOfViscousLaws)
+{
+  for (int order : {2, 1})
     for (int m : {1, 2})
-      for (int level = 0; level <= finest; ++level) viscous_error(order, level, m);
-  }
+      for (int level = 0; level <= (order == 1 ? 3 : 2); ++level) viscous_error(order, level, m);
 }
 
 } // namespace tribogel::test

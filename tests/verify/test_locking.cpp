@@ -66,4 +66,17 @@ TEST(locking, ErrorSaturatesAndFallsUnderRefinement)
   }
 }
 
+/// The table of tests/README.md.
+TEST(locking, DISABLED_Table)
+{
+  for (double bulk_over_shear : {1e2, 1e3, 1e4, 1e5}) {
+    const double fine = apparent_over_shear(2, 160, bulk_over_shear);
+    std::printf("K/G %.0e: thin disc %.2f, finest %.3f, errors", bulk_over_shear, thin_disc(bulk_over_shear), fine);
+    for (int order : {1, 2})
+      for (int elements : {20, 40, 80})
+        std::printf(" %.2e", apparent_over_shear(order, elements, bulk_over_shear) / fine - 1);
+    std::printf("\n");
+  }
+}
+
 } // namespace tribogel::test
