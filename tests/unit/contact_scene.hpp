@@ -185,7 +185,7 @@ inline Assembled assemble(const ContactScene &scene, const std::vector<std::pair
     for (int b : block.slave_nodes) add(columns, 3 * b);
     for (int m : block.master_nodes) add(columns, 3 * (slaves + m));
     add(columns, 3 * (slaves + masters + a));
-    add(rows, 3 * a);
+    for (int k = 0; k < block.slave_rows; ++k) add(rows, 3 * block.slave_nodes[k]);
     for (int m : block.master_nodes) add(rows, 3 * (slaves + m));
     add(rows, 3 * (slaves + masters + a));
     out.residual(rows) += block.residual;

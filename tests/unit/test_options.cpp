@@ -134,7 +134,7 @@ TEST(OptionTable, is_complete_and_consistent)
       EXPECT_EQ(find_option(option.name), &option);
     }
   EXPECT_GT(names.size(), 35u);
-  EXPECT_EQ(find_option("-plate_contact"), nullptr);
+  EXPECT_EQ(find_option("-plate_contac"), nullptr);
 }
 
 TEST(OptionTable, help_names_every_option)

@@ -33,6 +33,7 @@ struct HertzScene {
     scene.bottom = {width * a, width * a, gel()};
     scene.mesh.element_order = order;
     scene.friction = friction;
+    scene.plate_contact = false;
     scene.schedule = schedule;
     return scene;
   }

@@ -6,6 +6,7 @@
 /// others. Tolerance: 1e-8 relative, plus the round-off of the difference itself, (64 eps x sum of absolute forces + 16
 /// x round-off of the unloaded body) / h.
 #include "probe.hpp"
+#include "wall_scenes.hpp"
 
 #include <limits>
 
@@ -86,6 +87,14 @@ std::array<double, residual_groups> errors(Probe &probe, const Values &U, std::m
   return worst;
 }
 
+void check_matrix(Probe &probe, const Values &U, std::mt19937 &random)
+{
+  const auto worst = errors(probe, U, random);
+  for (int g = 0; g < residual_groups; ++g) {
+    EXPECT_LE(worst[g], relative_tolerance) << group_names[g] << ", order " << probe.problem.mesh.order;
+  }
+}
+
 void check(const Case &c, double step)
 {
   Problem problem;
@@ -95,10 +104,7 @@ void check(const Case &c, double step)
   Probe probe(problem, step);
   std::mt19937 random(20);
   const Values U = perturbed(probe, c.traction, random);
-  const auto worst = errors(probe, U, random);
-  for (int g = 0; g < residual_groups; ++g) {
-    EXPECT_LE(worst[g], relative_tolerance) << group_names[g] << ", order " << c.order << ", step " << step;
-  }
+  check_matrix(probe, U, random);
   probe.residual(U);
   const auto count = probe.statuses();
   for (std::size_t s = 0; s < 3; ++s) EXPECT_GE(count[s], c.wanted[s] ? 1 : 0) << "status " << s;
@@ -153,6 +159,23 @@ TEST_P(jacobian, OfAPressureExponent)
 TEST_P(jacobian, OfKagatasLawOverTheEdge)
 {
   check({GetParam(), 9.7, 0.03, {0.3}, {0.7}, 1.3, {true, false, true}, 0.5}, 0.37);
+}
+
+TEST_P(jacobian, OfWallsThatTouchTheirPlateAndRollOntoTheOtherGel)
+{
+  Problem problem;
+  Recorder recorder("");
+  run(mushroom(GetParam()), problem, recorder);
+  Probe probe(problem, 0.37);
+  std::mt19937 random(20);
+  std::uniform_real_distribution<double> in(-1, 1);
+  Values U = probe.committed(); // near the state: the wall must keep lying on the other gel
+  for (std::size_t k = 0; k < U.size(); ++k) U[k] += (problem.group[k] < 3 ? 1e-4 : 0.1) * in(random);
+  check_matrix(probe, U, random);
+  const auto rolled = std::count_if(recorder.last_profile.begin(), recorder.last_profile.end(), [](const auto &row) {
+    return std::string(row.surface) == "top" && row.reference_z > 0 && row.pressure > 0;
+  });
+  EXPECT_GE(rolled, 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(order, jacobian, ::testing::Values(1, 2));

@@ -68,6 +68,7 @@ PhaseEnd last_phase(const Punch &is, double twist, Problem &problem, Recorder &r
 {
   const double L = is.width * a, G = 0.4, grade = 3, depth = 1e-5 * a;
   Scene scene;
+  scene.plate_contact = false;
   scene.top = {a, a, neo_hookean(stiffness_ratio * G, 5)};
   scene.bottom = {L, L, neo_hookean(G, is.bulk_over_shear)};
   scene.mesh.element_order = is.order;

@@ -24,6 +24,7 @@ double torque_error(int order, int elements, const std::vector<double> &b)
   const UniaxialState state = uniaxial_state(hyperelastic_gel().equilibrium, 1 - compression);
   Scene scene = lubricated_discs(R / state.lateral, 4.4, 4, order);
   scene.friction = {b, exponents};
+  scene.plate_contact = false;
   const double approach = compression * (scene.top.height + scene.bottom.height);
   scene.schedule = schedule_from_rates({2.5, 12.5}, {approach, approach}, {0, omega});
   scene.mesh.elements_radial = elements;
