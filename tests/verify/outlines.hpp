@@ -3,17 +3,42 @@
 
 #include "bulk_scenes.hpp"
 
-#include <limits>
+#include <cmath>
 
 namespace tribogel::test
 {
+
+/// Points from a to b, equally spaced by at most h.
+inline std::vector<double> equal_points(double a, double b, double h)
+{
+  const auto count = static_cast<int>(std::ceil((b - a) / h - 1e-9));
+  std::vector<double> points{a};
+  for (int k = 1; k < count; ++k) points.push_back(a + (b - a) * k / count);
+  points.push_back(b);
+  return points;
+}
+
+/// Points from a to b whose edges start with `first` and grow by `ratio`, scaled to fit. A last edge that would be
+/// covered to less than half is not added.
+inline std::vector<double> growing_points(double a, double b, double first, double ratio)
+{
+  std::vector<double> sizes, points{a};
+  double sum = 0;
+  for (double edge = first; sizes.empty() || sum + 0.5 * edge < b - a; edge *= ratio) {
+    sizes.push_back(edge);
+    sum += edge;
+  }
+  for (const double edge : sizes) points.push_back(points.back() + edge * (b - a) / sum);
+  points.back() = b;
+  return points;
+}
 
 /// Edges of length h from 0 to `even`, then longer by `ratio` from one to the next, up to `end`; all halved `halvings`
 /// times, so that the meshes are nested.
 inline std::vector<double> graded_outwards(double even, double h, double end, double ratio, int halvings)
 {
-  std::vector<double> points = graded_points(0, even, false, false, h, 1, h);
-  const auto outer = graded_points(even, end, true, false, h * ratio, ratio, std::numeric_limits<double>::infinity());
+  std::vector<double> points = equal_points(0, even, h);
+  const auto outer = growing_points(even, end, h * ratio, ratio);
   points.insert(points.end(), outer.begin() + 1, outer.end());
   for (int k = 0; k < halvings; ++k) {
     std::vector<double> finer{points[0]};

@@ -23,7 +23,7 @@ Body errors_of_cap(int order, int elements)
   scene.plate_contact = false;
   scene.mesh.elements_radial = elements;
   std::vector<MeridianBlock> blocks = meridian_blocks(scene);
-  const auto points = [&](double end) { return graded_points(0, end, false, false, 0, 1, end / elements); };
+  const auto points = [&](double end) { return equal_points(0, end, end / elements); };
   blocks[1] = spherical_cap(sphere, points(width), points(height));
   Problem problem;
   EXPECT_EQ(problem.SetUp(PETSC_COMM_WORLD, scene, blocks), 0);

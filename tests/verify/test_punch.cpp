@@ -43,7 +43,7 @@ std::vector<double> around_edge(int n, double grade, double L)
   const std::vector<double> near = towards_zero(a, n, grade);
   for (std::size_t k = 1; k < near.size(); ++k) points.push_back(a + near[k]);
   const double last = a - near[near.size() - 2], ratio = std::pow(2, 2.0 / n);
-  const auto far = graded_points(2 * a, L, true, false, last * ratio, ratio, std::numeric_limits<double>::infinity());
+  const auto far = growing_points(2 * a, L, last * ratio, ratio);
   points.insert(points.end(), far.begin() + 1, far.end());
   return points;
 }
@@ -52,7 +52,7 @@ std::vector<double> below_edge(int n, double grade, double L)
 {
   std::vector<double> points = towards_zero(a, n, grade);
   const double last = a - points[points.size() - 2], ratio = std::pow(2, 2.0 / n);
-  const auto far = graded_points(a, L, true, false, last * ratio, ratio, std::numeric_limits<double>::infinity());
+  const auto far = growing_points(a, L, last * ratio, ratio);
   points.insert(points.end(), far.begin() + 1, far.end());
   return points;
 }

@@ -31,7 +31,7 @@ double torque_error(int order, int elements, const std::vector<double> &b)
   std::vector<MeridianBlock> rings = meridian_blocks(scene);
   for (MeridianBlock &ring : rings) {
     const double edge = (R - A) / state.lateral / (ring.body == top_body ? elements : elements + 1);
-    ring.R = graded_points(A / state.lateral, scene.top.radius, false, false, 0, 1, edge);
+    ring.R = equal_points(A / state.lateral, scene.top.radius, edge);
     ring.inner = Side::wall;
   }
   const SolverOptions options(fixed_steps(1.25, 1e-11));
