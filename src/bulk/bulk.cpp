@@ -114,7 +114,7 @@ public:
       for (const auto &p : c.cell.point)
         for (int a = 0; a < Element::nodes; ++a) {
           const double force =
-              std::numeric_limits<double>::epsilon() * modulus * p.weight * std::hypot(p.dN[a][0], p.dN[a][1]);
+              std::numeric_limits<double>::epsilon() * modulus * p.weight * std::hypot(p.shape[1][a], p.shape[2][a]);
           for (int i = 0; i < 3; ++i) magnitude[c.dof[3 * a + i]] += force;
         }
     }

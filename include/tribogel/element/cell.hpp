@@ -22,9 +22,8 @@ template <class Kinematics, int cell_order> struct Cell {
 
   struct Point {
     Position X;
-    std::array<double, nodes> N;
-    std::array<Position, nodes> dN; ///< d N_a / d X_j [1/mm]
-    double weight;                  ///< reference volume [mm^3]
+    std::array<std::array<double, nodes>, 1 + dim> shape; ///< [0]: N_a, [1 + j]: d N_a / d X_j [1/mm]
+    double weight;                                        ///< reference volume [mm^3]
     std::array<double, modes> psi;
   };
   std::array<Point, points> point;
@@ -66,10 +65,10 @@ template <class Kinematics, int cell_order> bool Cell<Kinematics, cell_order>::s
     const Eigen::Matrix<double, dim, dim> inverse = jacobian.inverse();
     for (int a = 0; a < nodes; ++a)
       for (int j = 0; j < dim; ++j) {
-        p.dN[a][j] = 0;
-        for (int k = 0; k < dim; ++k) p.dN[a][j] += shape.dN[a][k] * inverse(k, j);
+        p.shape[1 + j][a] = 0;
+        for (int k = 0; k < dim; ++k) p.shape[1 + j][a] += shape.dN[a][k] * inverse(k, j);
       }
-    p.N = shape.N;
+    p.shape[0] = shape.N;
     p.weight = weight * det * Kinematics::measure(p.X);
     p.psi[0] = 1;
     for (int k = 1; k < modes; ++k) p.psi[k] = (p.X[k - 1] - centre[k - 1]) / size[k - 1];

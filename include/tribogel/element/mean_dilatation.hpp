@@ -11,7 +11,9 @@
 #include "tribogel/material/viscoelastic.hpp"
 #include "tribogel/math/tensor.hpp"
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace tribogel
 {
@@ -40,16 +42,14 @@ public:
     State<T> s;
     const PointStatus status = s.evaluate(kinematics, cell, material, U, history, step, history_new, false, energy);
     if (status != PointStatus::ok) return status;
-    R.setConstant(T(0));
+    Rows<T> force;
+    for (auto &row : force) row.fill(T(0));
     for (int q = 0; q < points; ++q) {
-      const Matrix3<T> P = s.first_piola(q);
-      const auto &p = cell.point[q];
-      for (int a = 0; a < nodes; ++a)
-        for (int i = 0; i < unknowns; ++i) {
-          const Matrix3<T> dF = kinematics.first(p.X, s.field[q], i, p.N[a], p.dN[a]);
-          R[a * unknowns + i] += p.weight * P.cwiseProduct(dF).sum();
-        }
+      const Inputs<T> conjugate = cell.point[q].weight * stacked(s.first_piola(q)).transpose() *
+                                  variations(kinematics, cell.point[q], s.field[q]);
+      add_rows(cell.point[q], conjugate, force);
     }
+    scatter(force, R);
     return status;
   }
 
@@ -60,9 +60,17 @@ public:
                              Matrix &K);
 
 private:
+  using Point = typename CellType::Point;
+  static constexpr auto input = Kinematics::inputs;
+  static constexpr int inputs = static_cast<int>(input.size());
+
+  template <class T> using Inputs = Eigen::Matrix<T, 1, inputs>;
+  template <class T> using Stack = Eigen::Matrix<T, 9, inputs, Eigen::RowMajor>; ///< 3x3 entries (3 i + j), by input
+  template <class T> using Rows = std::array<std::array<T, nodes>, unknowns>;    ///< one number a degree of freedom
+
   template <class T> struct State {
     typename Kinematics::template Field<T> field[points];
-    Matrix3<T> F[points], inverse[points];
+    Matrix3<T> inverse[points]; ///< F^-1
     T J[points], theta[points], pressure[points];
     Response<T> response[points];
 
@@ -91,9 +99,72 @@ private:
     Matrix3<T> first_piola(int q) const { return kirchhoff(q) * inverse[q].transpose(); }
   };
 
-  using Gradient = Eigen::Matrix<double, 10, dofs>;
-  using Curvature = Eigen::Matrix<double, 10, 10>;
-  static Curvature curvature(const State<double> &s, int q);
+  template <class T> static Eigen::Matrix<T, 9, 1> stacked(const Matrix3<T> &A)
+  {
+    Eigen::Matrix<T, 9, 1> v;
+    for (int k = 0; k < 9; ++k) v[k] = A(k / 3, k % 3);
+    return v;
+  }
+
+  /// f(integral constant 0), f(1), ... f(count - 1).
+  template <int count, class Function> static void for_each(Function &&f)
+  {
+    [&]<int... k>(std::integer_sequence<int, k...>)
+    {
+      (f(std::integral_constant<int, k>{}), ...);
+    }
+    (std::make_integer_sequence<int, count>{});
+  }
+
+  /// The unit vector of one input, as shape function and gradient of a node.
+  struct Unit {
+    double N = 0;
+    std::array<double, Kinematics::dim> dN{};
+    explicit Unit(int k)
+    {
+      if (input[k].derivative == 0)
+        N = 1;
+      else
+        dN[input[k].derivative - 1] = 1;
+    }
+  };
+
+  /// dF for a unit rate of each input.
+  template <class T>
+  static Stack<T> variations(const Kinematics &kinematics, const Point &p,
+                             const typename Kinematics::template Field<T> &field)
+  {
+    Stack<T> dF;
+    for_each<inputs>([&](auto k) {
+      const Unit unit(k);
+      dF.col(k()) = stacked(kinematics.first(p.X, field, input[k].unknown, unit.N, unit.dN));
+    });
+    return dF;
+  }
+
+  /// From numbers conjugate to the inputs to numbers conjugate to the nodes' unknowns.
+  template <class T, class Conjugate> static void add_rows(const Point &p, const Conjugate &conjugate, Rows<T> &rows)
+  {
+    for_each<inputs>([&](auto k) {
+      const T c = conjugate[k()];
+      for (int a = 0; a < nodes; ++a) rows[input[k].unknown][a] += p.shape[input[k].derivative][a] * c;
+    });
+  }
+
+  template <class T> static void scatter(const Rows<T> &rows, Vector<T> &R)
+  {
+    for (int a = 0; a < nodes; ++a)
+      for (int i = 0; i < unknowns; ++i) R[a * unknowns + i] = rows[i][a];
+  }
+
+  using Curvature = Eigen::Matrix<double, inputs + 1, inputs + 1, Eigen::RowMajor>;
+  using Rates = Eigen::Matrix<double, 9, inputs + 1, Eigen::RowMajor>;
+  static Curvature curvature(const Kinematics &kinematics, const State<double> &s, int q, const Rates &l);
+
+  /// [i][a][j][b]: the tangent, unknown by unknown, so that the loop over b is one of the processor's vectors. Only
+  /// i <= j is filled.
+  using Blocks = std::array<std::array<std::array<std::array<double, nodes>, unknowns>, nodes>, unknowns>;
+  static void add_inputs(const Point &p, const Curvature &H, Blocks &K);
 };
 
 template <class Kinematics, int order>
@@ -106,6 +177,9 @@ PointStatus MeanDilatation<Kinematics, order>::State<T>::evaluate(const Kinemati
 {
   using std::cbrt;
   const int stride = material.history_size();
+  Rows<T> u;
+  for (int a = 0; a < nodes; ++a)
+    for (int i = 0; i < unknowns; ++i) u[i][a] = U[a * unknowns + i];
   for (int q = 0; q < points; ++q) {
     const auto &p = cell.point[q];
     auto &f = field[q];
@@ -113,14 +187,14 @@ PointStatus MeanDilatation<Kinematics, order>::State<T>::evaluate(const Kinemati
       f.u[i] = T(0);
       f.grad[i].fill(T(0));
       for (int a = 0; a < nodes; ++a) {
-        f.u[i] += p.N[a] * U[a * unknowns + i];
-        for (int j = 0; j < Kinematics::dim; ++j) f.grad[i][j] += p.dN[a][j] * U[a * unknowns + i];
+        f.u[i] += p.shape[0][a] * u[i][a];
+        for (int j = 0; j < Kinematics::dim; ++j) f.grad[i][j] += p.shape[1 + j][a] * u[i][a];
       }
     }
-    F[q] = kinematics.deformation(p.X, f);
-    J[q] = F[q].determinant();
+    const Matrix3<T> F = kinematics.deformation(p.X, f);
+    J[q] = F.determinant();
     if (!(J[q] > 0)) return PointStatus::inverted; // NaN included
-    inverse[q] = F[q].inverse();
+    inverse[q] = F.inverse();
   }
   const auto dilatation = project(cell, J);
   T s[points];
@@ -131,7 +205,7 @@ PointStatus MeanDilatation<Kinematics, order>::State<T>::evaluate(const Kinemati
     if (!(theta[q] > 0)) return PointStatus::inverted;
     const T scale = cbrt(theta[q] / J[q]);
     const HistoryLevels<T> levels{history ? history + q * stride : nullptr};
-    response[q] = material.evaluate(Matrix3<T>(scale * F[q]), levels, step,
+    response[q] = material.evaluate(Matrix3<T>(scale * kinematics.deformation(p.X, field[q])), levels, step,
                                     history_new ? history_new + q * stride : nullptr, with_tangent);
     if (response[q].status != PointStatus::ok) return response[q].status;
     s[q] = (response[q].tau[0] + response[q].tau[1] + response[q].tau[2]) / (3.0 * theta[q]);
@@ -148,44 +222,66 @@ PointStatus MeanDilatation<Kinematics, order>::State<T>::evaluate(const Kinemati
   return PointStatus::ok;
 }
 
-/// Second derivative of the incremental potential at one point with respect to (l, ln theta), where l = dF F^-1 is the
-/// full spatial velocity gradient (rows 3 i + j) and the terms that contain d2F are left out, THEORY (2.6).
+/// Second derivative of the incremental potential at one point with respect to the inputs and, last, ln theta, THEORY
+/// (2.6). The columns of `l` are the spatial velocity gradients that go with them.
 template <class Kinematics, int order>
-auto MeanDilatation<Kinematics, order>::curvature(const State<double> &s, int q) -> Curvature
+auto MeanDilatation<Kinematics, order>::curvature(const Kinematics &kinematics, const State<double> &s, int q,
+                                                  const Rates &l) -> Curvature
 {
+  using Row = Eigen::Matrix<double, 1, inputs + 1>;
   const Matrix3<double> tau = from_mandel(s.response[q].tau);
   const double t = tau.trace(), pJ = s.pressure[q] * s.J[q];
-  Eigen::Matrix<double, 10, 1> trace = Eigen::Matrix<double, 10, 1>::Zero(), dilate = trace, deviator = trace;
-  Eigen::Matrix<double, 6, 10> rate = Eigen::Matrix<double, 6, 10>::Zero(); // d~ from (l, ln theta), Mandel
-  constexpr double half_root = 1 / std::numbers::sqrt2;
+  const Row trace = l.row(0) + l.row(4) + l.row(8), dilate = Row::Unit(inputs);
+  const Row a = (dilate - trace) / 3;                         // variation of ln (theta/J)^(1/3)
+  Eigen::Matrix<double, 6, inputs + 1, Eigen::RowMajor> rate; // d~, Mandel
+  Row deviator = -t / 3 * trace;
+  Rates product; // with the terms in l^T l and tr(l l)
   for (int m = 0; m < 6; ++m) {
     const auto [i, j] = mandel_index[m];
-    rate(m, 3 * i + j) += m < 3 ? 1 : half_root;
-    if (m >= 3) rate(m, 3 * j + i) += half_root;
+    if (m < 3)
+      rate.row(m) = l.row(4 * m) + a;
+    else
+      rate.row(m) = (l.row(3 * i + j) + l.row(3 * j + i)) / std::numbers::sqrt2;
   }
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) rate(i, 4 * k) -= 1.0 / 3;
-    rate(i, 9) += 1.0 / 3;
-    trace[4 * i] = 1;
-    for (int j = 0; j < 3; ++j) deviator[3 * i + j] = tau(i, j) - (i == j ? t / 3 : 0);
-  }
-  dilate[9] = 1;
-  const Eigen::Matrix<double, 10, 1> a = (dilate - trace) / 3; // variation of ln (theta/J)^(1/3)
-  Curvature H = rate.transpose() * (s.response[q].tangent * rate);
-  const auto symmetric = [&H](const auto &x, const auto &y, double factor) {
-    H += factor * (x * y.transpose() + y * x.transpose());
-  };
-  symmetric(a, deviator, 2);
-  symmetric(a, dilate, 2 * t / 3);
-  H -= 2 * t * a * a.transpose();
-  H -= t / 3 * dilate * dilate.transpose();
-  H += pJ * trace * trace.transpose();
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
-      H(3 * i + j, 3 * j + i) += t / 3 - pJ;                            // tr(l l)
-      for (int k = 0; k < 3; ++k) H(3 * i + j, 3 * i + k) += tau(j, k); // tau : l^T l
+      deviator += tau(i, j) * l.row(3 * i + j);
+      product.row(3 * i + j) = (t / 3 - pJ) * l.row(3 * j + i);
+      for (int k = 0; k < 3; ++k) product.row(3 * i + j) += tau(j, k) * l.row(3 * i + k);
     }
+  const Eigen::Matrix<double, 6, inputs + 1, Eigen::RowMajor> stress = s.response[q].tangent * rate;
+  const Row beside_a = 2 * deviator + 2 * t / 3 * dilate - t * a;
+  Curvature H = rate.transpose() * stress;
+  H.noalias() += l.transpose() * product;
+  H.noalias() += a.transpose() * beside_a + beside_a.transpose() * a;
+  H.noalias() += pJ * trace.transpose() * trace;
+  H(inputs, inputs) -= t / 3;
+  const Matrix3<double> P = s.first_piola(q);
+  for_each<inputs>([&](auto k) {
+    for_each<inputs>([&](auto m) {
+      const Unit row(k), column(m);
+      H(k(), m()) += kinematics.second(P, input[k].unknown, row.N, row.dN, input[m].unknown, column.N, column.dN);
+    });
+  });
   return H;
+}
+
+template <class Kinematics, int order>
+void MeanDilatation<Kinematics, order>::add_inputs(const Point &p, const Curvature &H, Blocks &K)
+{
+  std::array<std::array<std::array<double, nodes>, unknowns>, inputs> HB{};
+  for_each<inputs>([&](auto k) {
+    for_each<inputs>([&](auto m) {
+      if constexpr (input[k].unknown <= input[m].unknown)
+        for (int b = 0; b < nodes; ++b) HB[k][input[m].unknown][b] += H(k(), m()) * p.shape[input[m].derivative][b];
+    });
+  });
+  for_each<inputs>([&](auto k) {
+    constexpr int i = input[k].unknown;
+    for (int a = 0; a < nodes; ++a)
+      for (int j = i; j < unknowns; ++j)
+        for (int b = 0; b < nodes; ++b) K[i][a][j][b] += p.shape[input[k].derivative][a] * HB[k][j][b];
+  });
 }
 
 template <class Kinematics, int order>
@@ -199,41 +295,44 @@ PointStatus MeanDilatation<Kinematics, order>::tangent(const Kinematics &kinemat
   const PointStatus status = s.evaluate(kinematics, cell, material, U, history, step, nullptr, true, nullptr);
   if (status != PointStatus::ok) return status;
 
-  Gradient G[points];
-  Eigen::Matrix<double, modes, dofs> moment = Eigen::Matrix<double, modes, dofs>::Zero();
+  // The dilatation depends on all of the cell's unknowns through a few modes: beside the blocks of inputs, a tangent
+  // of low rank.
+  using Dense = Eigen::Matrix<double, modes, dofs, Eigen::RowMajor>; // columns unknown by unknown, as Blocks
+  Rows<double> force{}, moment[modes]{}, coupling[modes]{};
+  Eigen::Matrix<double, modes, modes> dilatational = Eigen::Matrix<double, modes, modes>::Zero();
+  Blocks blocks{};
   for (int q = 0; q < points; ++q) {
     const auto &p = cell.point[q];
-    for (int a = 0; a < nodes; ++a)
-      for (int i = 0; i < unknowns; ++i) {
-        const Matrix3<double> l = kinematics.first(p.X, s.field[q], i, p.N[a], p.dN[a]) * s.inverse[q];
-        const int column = a * unknowns + i;
-        for (int k = 0; k < 9; ++k) G[q](k, column) = l(k / 3, k % 3);
-        const double dJ = p.weight * s.J[q] * l.trace();
-        for (int k = 0; k < modes; ++k) moment(k, column) += p.psi[k] * dJ;
-      }
+    const Stack<double> dF = variations(kinematics, p, s.field[q]);
+    Rates l;
+    l.col(inputs).setZero();
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        l.row(3 * i + j).template head<inputs>() = dF.row(3 * i) * s.inverse[q](0, j) +
+                                                   dF.row(3 * i + 1) * s.inverse[q](1, j) +
+                                                   dF.row(3 * i + 2) * s.inverse[q](2, j);
+    const Curvature H = p.weight * curvature(kinematics, s, q, l);
+    add_rows(p, Inputs<double>(p.weight * stacked(s.first_piola(q)).transpose() * dF), force);
+    add_inputs(p, H, blocks);
+    const Inputs<double> dJ = p.weight * s.J[q] * (l.row(0) + l.row(4) + l.row(8)).template head<inputs>();
+    for (int k = 0; k < modes; ++k) {
+      const double d_ln_theta = p.psi[k] / s.theta[q];
+      add_rows(p, Inputs<double>(p.psi[k] * dJ), moment[k]);
+      add_rows(p, Inputs<double>(d_ln_theta * H.row(inputs).template head<inputs>()), coupling[k]);
+      for (int m = 0; m < modes; ++m) dilatational(k, m) += d_ln_theta * p.psi[m] / s.theta[q] * H(inputs, inputs);
+    }
   }
-  const Eigen::Matrix<double, modes, dofs> d_dilatation = cell.inverse_mass * moment;
-
-  R.setZero();
-  K.setZero();
-  for (int q = 0; q < points; ++q) {
-    const auto &p = cell.point[q];
-    G[q].row(9).setZero();
-    for (int k = 0; k < modes; ++k) G[q].row(9) += p.psi[k] / s.theta[q] * d_dilatation.row(k);
-    const Matrix3<double> tau = s.kirchhoff(q);
-    Eigen::Matrix<double, 9, 1> stress;
-    for (int k = 0; k < 9; ++k) stress[k] = tau(k / 3, k % 3);
-    R.noalias() += p.weight * (G[q].template topRows<9>().transpose() * stress);
-    const Gradient HG = p.weight * curvature(s, q) * G[q];
-    K.noalias() += G[q].transpose() * HG;
-
-    const Matrix3<double> P = p.weight * (tau * s.inverse[q].transpose());
-    for (int a = 0; a < nodes; ++a)
-      for (int b = 0; b < nodes; ++b)
-        for (int i = 0; i < unknowns; ++i)
-          for (int j = 0; j < unknowns; ++j)
-            K(a * unknowns + i, b * unknowns + j) += kinematics.second(P, i, p.N[a], p.dN[a], j, p.N[b], p.dN[b]);
-  }
+  const Dense d_dilatation = cell.inverse_mass * Eigen::Map<const Dense>(moment[0][0].data());
+  const Dense side = Eigen::Map<const Dense>(coupling[0][0].data()) + 0.5 * dilatational * d_dilatation;
+  Eigen::Map<Matrix> all(blocks[0][0][0].data());
+  all.noalias() += side.transpose() * d_dilatation;
+  all.noalias() += d_dilatation.transpose() * side;
+  for (int i = 0; i < unknowns; ++i)
+    for (int j = i; j < unknowns; ++j)
+      for (int a = 0; a < nodes; ++a)
+        for (int b = 0; b < nodes; ++b)
+          K(a * unknowns + i, b * unknowns + j) = K(b * unknowns + j, a * unknowns + i) = blocks[i][a][j][b];
+  scatter(force, R);
   return status;
 }
 

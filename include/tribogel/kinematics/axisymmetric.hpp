@@ -9,8 +9,9 @@
 /// F holds only gradients of phi: any number of revolutions is represented without loss of digits, and a rigid
 /// rotation of the body is a constant phi.
 ///
-/// This struct is what a model must offer to the element (the 3-D model offers the same): `deformation`, the first
-/// variation `first` of F for one unit nodal unknown, the second variation contracted with a stress, and `measure`.
+/// This struct is what a model must offer to the element (the 3-D model offers the same): what F depends on, `inputs`,
+/// `deformation`, the first variation `first` of F for one unit nodal unknown, the second variation contracted with a
+/// stress, and `measure`.
 #pragma once
 
 #include "tribogel/math/tensor.hpp"
@@ -24,6 +25,13 @@ namespace tribogel
 struct AxisymmetricTorsion {
   static constexpr int dim = 2;      ///< of the reference mesh
   static constexpr int unknowns = 3; ///< per node
+
+  /// One number that F depends on: an unknown (derivative 0) or its derivative by X_(derivative - 1).
+  struct Input {
+    int unknown, derivative;
+  };
+  /// All of them. Not w and u_Z themselves: a rigid motion has no strain.
+  static constexpr std::array<Input, 7> inputs{{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 1}, {2, 2}}};
 
   double twist_length = 1; ///< L [mm]
 
