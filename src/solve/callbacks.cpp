@@ -75,15 +75,22 @@ PetscErrorCode Jacobian(DM, PetscReal time, Vec U, Vec Udot, PetscReal shift, Ma
   PetscFunctionReturn(0);
 }
 
-/// Start of a solve: the last step's motion goes on. After a jump of the plate's motion nothing is known of it.
+/// Start of a solve: the last step's motion goes on, and so does its change unless the step is much longer than those
+/// it is known from. After a jump of the plate's motion nothing is known.
 PetscErrorCode Predict(SNES, Vec U, void *context)
 {
   auto &problem = *static_cast<Problem *>(context);
+  const State &state = problem.state;
+  constexpr double much_longer = 2;
   PetscReal step;
   PetscFunctionBeginUser;
   PetscCall(TSGetTimeStep(problem.ts, &step));
-  PetscCall(VecCopy(problem.state.U, U));
-  if (problem.state.time > problem.phase().start_time) PetscCall(VecAXPY(U, step, problem.state.Udot));
+  PetscCall(VecCopy(state.U, U));
+  if (state.steps_in_phase >= 1) PetscCall(VecAXPY(U, step, state.Udot));
+  if (state.steps_in_phase >= 2 && step <= much_longer * state.step) {
+    const double bend = step * (step + state.step) / (state.step + state.step_before);
+    PetscCall(VecAXPBYPCZ(U, bend, -bend, 1, state.Udot, state.Udot_before));
+  }
   PetscFunctionReturn(0);
 }
 

@@ -33,7 +33,6 @@ PetscErrorCode Problem::SetUp(MPI_Comm comm, const Scene &given, const std::vect
 
 PetscErrorCode Problem::SetFromOptions()
 {
-  PetscReal first_step;
   PetscBool given, is_euler;
   PetscFunctionBeginUser;
   PetscCall(TSSetFromOptions(ts));
@@ -43,8 +42,8 @@ PetscErrorCode Problem::SetFromOptions()
              "-ts_type: the internal variables and the sliding velocity follow backward Euler; allowed: beuler");
   PetscCall(PetscOptionsHasName(nullptr, nullptr, "-ts_max_time", &given));
   PetscCheck(!given, comm, PETSC_ERR_USER_INPUT, "-ts_max_time: the schedule ends the run; use -schedule_end_times");
-  PetscCall(PetscOptionsGetReal(nullptr, nullptr, "-ts_dt", &first_step, &given));
-  PetscCheck(!given || first_step > 0, comm, PETSC_ERR_USER_INPUT,
+  PetscCall(PetscOptionsGetReal(nullptr, nullptr, "-ts_dt", &given_first_step, &given));
+  PetscCheck(!given || given_first_step > 0, comm, PETSC_ERR_USER_INPUT,
              "-ts_dt: the first step of a phase must be longer than 0 s");
   PetscFunctionReturn(0);
 }
@@ -59,11 +58,12 @@ PetscErrorCode Problem::SetUpFields()
   PetscFunctionBeginUser;
   PetscCall(DMCreateGlobalVector(mesh.dm, state.U.put()));
   PetscCall(VecDuplicate(state.U, state.Udot.put()));
+  PetscCall(VecDuplicate(state.U, state.Udot_before.put()));
   PetscCall(VecDuplicate(state.U, before.put()));
   PetscCall(VecDuplicate(state.U, magnitude.put()));
   PetscCall(VecDuplicate(state.U, round_off.put()));
-  PetscCall(VecDuplicate(state.U, step_tolerance.put()));
-  for (Vec v : {static_cast<Vec>(state.U), static_cast<Vec>(state.Udot), static_cast<Vec>(before)})
+  for (Vec v : {static_cast<Vec>(state.U), static_cast<Vec>(state.Udot), static_cast<Vec>(state.Udot_before),
+                static_cast<Vec>(before)})
     PetscCall(VecZeroEntries(v));
   state.history = bulk->InitialHistory();
 
@@ -77,12 +77,14 @@ PetscErrorCode Problem::SetUpFields()
     group[row - first] = static_cast<char>(kind);
     node_of_row[row - first] = static_cast<int>(node);
   };
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    const Node &node = mesh.nodes[n];
+    if (node.on(Side::top_plate)) plate_nodes.push_back(static_cast<int>(n));
     for (int i = 0; i < 3; ++i) {
-      const Node &node = mesh.nodes[n];
       classify(to_global[node.displacement + i], i, n);
       if (node.traction >= 0) classify(to_global[node.traction + i], 3 + i, n);
     }
+  }
   PetscCall(ISLocalToGlobalMappingRestoreIndices(mapping, &to_global));
 
   PetscCall(DMGetLocalVector(mesh.dm, &local));
@@ -150,6 +152,11 @@ PetscErrorCode Problem::AddResidual(double time, const double *U, const double *
   PetscCall(PetscLogEventBegin(events.bulk_residual, 0, 0, 0, 0));
   bulk_failure = bulk->AddResidual(U, state.history, weights(time), F, sizes);
   PetscCall(PetscLogEventEnd(events.bulk_residual, 0, 0, 0, 0));
+  plate_loads = {};
+  for (int n : plate_nodes) {
+    plate_loads[0] -= F[mesh.nodes[n].displacement + 2];
+    plate_loads[1] += F[mesh.nodes[n].displacement + 1] * scene.twist_length();
+  }
   PetscCall(ShareFailure(PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm))), bulk_failure));
   contact_failure.clear();
   PetscCall(PetscLogEventBegin(events.contact_residual, 0, 0, 0, 0));

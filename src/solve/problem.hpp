@@ -94,7 +94,8 @@ public:
   PetscErrorCode UpdatePattern(SNES snes);
   PetscErrorCode AcceptStep(PetscReal time, Vec U);
   PetscErrorCode JudgeResidual(Vec F, bool &converged);
-  PetscErrorCode SetStepTolerances();
+  double first_step() const; ///< of the phase [s]
+  PetscErrorCode SumPlateLoads(PlateLoads &loads) const;
 
 private:
   PetscErrorCode LocateWorst(const double *f);
@@ -104,9 +105,10 @@ private:
   std::string Explain(TSConvergedReason reason) const;
 
   std::vector<Observer *> watching;
-  VecHandle before; ///< U at the start of the step
-  VecHandle step_tolerance;
-  std::array<double, residual_groups> largest{}; ///< |U| per group so far
+  PetscReal given_first_step = 0; ///< `-ts_dt` [s], 0 if not given
+  VecHandle before;               ///< U at the start of the step
+  std::vector<int> plate_nodes;   ///< on the top plate, indices into mesh.nodes
+  PlateLoads plate_loads{};       ///< on this rank's cells in the last evaluation of the residual
   friend PetscErrorCode PreStep(TS);
 };
 
