@@ -110,6 +110,13 @@ void Contact::AddRoundOff(double *magnitude) const
   for (const PlateContact &plate : plates) plate.AddRoundOff(magnitude);
 }
 
+double Contact::WallForce(const double *U) const
+{
+  double force = 0;
+  for (const PlateContact &plate : plates) force += plate.ForceOnTopPlate(U);
+  return force;
+}
+
 PetscErrorCode Contact::Results(const PlateFrames &frames, const double *U, const double *Udot, ContactResults &results)
 {
   PetscFunctionBeginUser;
@@ -122,7 +129,7 @@ PetscErrorCode Contact::Results(const PlateFrames &frames, const double *U, cons
     results.torque += torque;
     results.surfaces.push_back(std::move(surface));
   }
-  for (const PlateContact &plate : plates) results.wall_force += plate.ForceOnTopPlate(U);
+  results.wall_force = WallForce(U);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &results.wall_force, 1, MPI_DOUBLE, MPI_SUM, comm));
   PetscFunctionReturn(0);
 }

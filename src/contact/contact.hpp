@@ -18,7 +18,7 @@ struct SurfaceResults {
 struct ContactResults {
   std::vector<SurfaceResults> surfaces; ///< the lower face, then the wall (if it may touch); empty for a single gel
   double force = 0, torque = 0;         ///< that the gels transmit, signed as the plate's reactions [N, N mm]
-  double wall_force = 0;                ///< of the walls on the top plate, part of N [N]
+  double wall_force = 0;                ///< of the walls on the top plate, all ranks', part of N [N]
 };
 
 class Contact
@@ -47,6 +47,9 @@ public:
   void AddRoundOff(double *magnitude) const;
 
   PetscErrorCode Results(const PlateFrames &frames, const double *U, const double *Udot, ContactResults &results);
+
+  /// Force of this rank's wall nodes on the top plate, part of N [N].
+  double WallForce(const double *U) const;
 
   bool between_gels() const { return !gels.empty(); }
   const AxisymmetricContact &model() const { return gels.front().model(); } ///< of the lower face

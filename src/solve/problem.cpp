@@ -157,6 +157,7 @@ PetscErrorCode Problem::AddResidual(double time, const double *U, const double *
     plate_loads[0] -= F[mesh.nodes[n].displacement + 2];
     plate_loads[1] += F[mesh.nodes[n].displacement + 1] * scene.twist_length();
   }
+  if (contact) plate_loads[0] += contact->WallForce(U);
   PetscCall(ShareFailure(PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm))), bulk_failure));
   contact_failure.clear();
   PetscCall(PetscLogEventBegin(events.contact_residual, 0, 0, 0, 0));
