@@ -32,6 +32,7 @@ inline Scene paper_scene(int elements_radial, int order = 2)
       schedule_from_rates({27, 3600, 4500, 5400, 6300}, {0.79, 0.79, 0.79, 0.79, 0.79}, {0, 0, 0.01, 0.1, 1});
   scene.mesh.element_order = order;
   scene.mesh.elements_radial = elements_radial;
+  scene.mesh.grading = 4;
   return scene;
 }
 

@@ -38,8 +38,8 @@ enum class PlateBond { glued, lubricated };
 /// Grading beyond 4 starves the axis (the centre's displacement) for little gain at the rim.
 struct MeshParameters {
   int element_order = 2;          ///< 1 (Q1/P0) or 2 (Q2/P1)
-  int elements_radial = 16;       ///< along the top radius
-  double grading = 4;             ///< largest over smallest edge, >= 1
+  int elements_radial = 12;       ///< along the top radius
+  double grading = 30;            ///< largest over smallest edge, >= 1
   int bottom_elements_radial = 0; ///< over the same length on the bottom body; 0: as many. No option: tests set it
                                   ///< to make the meshes non-matching
 };
