@@ -2,6 +2,7 @@
 
 #include "tribogel/kinematics/axisymmetric.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -16,6 +17,8 @@ template <class Kinematics, int order> class BulkOf final : public Bulk
 {
   using Element = MeanDilatation<Kinematics, order>;
   using CellType = typename Element::CellType;
+  using Vector = typename Element::template Vector<double>;
+  using Evaluation = typename Element::template Evaluation<double>;
   static constexpr int dofs = Element::dofs;
 
 public:
@@ -34,44 +37,111 @@ public:
         for (int j = 0; j < 2; ++j) data.centre[j] += node.X[j] / Element::nodes;
       }
       sound = data.cell.set(X) && sound;
+      for (int node : mesh_cell.node) data.at_top_plate = data.at_top_plate || mesh.nodes[node].on(Side::top_plate);
       data.history = offset;
       offset += static_cast<PetscInt>(Element::points) * material[data.body].history_size();
       cells.push_back(data);
     }
     history_size = offset;
+    known.resize(cells.size());
+    history_before.resize(history_size);
+    history_after.resize(history_size);
   }
 
   BulkFailure AddResidual(const double *U, const History &history, StepWeights step, double *F,
-                          double *magnitude) const override
+                          double *magnitude) override
   {
-    for (const CellData &c : cells) {
-      typename Element::template Vector<double> R;
-      const PointStatus status =
-          Element::residual(kinematics, c.cell, material[c.body], gather(c, U), history.data() + c.history, step, R);
-      if (status != PointStatus::ok) return failure_of(c, status);
+    for (std::size_t n = 0; n < cells.size(); ++n) {
+      const PointStatus status = Evaluate(n, U, history, step);
+      if (status != PointStatus::ok) return failure_of(cells[n], status);
+      const Vector R = Element::forces(kinematics, cells[n].cell, known[n].evaluation);
       for (int k = 0; k < dofs; ++k) {
-        F[c.dof[k]] += R[k];
-        magnitude[c.dof[k]] += std::abs(R[k]);
+        F[cells[n].dof[k]] += R[k];
+        magnitude[cells[n].dof[k]] += std::abs(R[k]);
       }
     }
     return {};
   }
 
-  PetscErrorCode AddJacobian(const double *U, const History &history, StepWeights step, Mat A,
-                             BulkFailure &failure) const override
+  BulkFailure AddTopPlateForces(const double *U, const History &history, StepWeights step, double *F) const override
   {
-    PetscFunctionBeginUser;
     for (const CellData &c : cells) {
-      typename Element::template Vector<double> R;
-      typename Element::Matrix K;
-      const PointStatus status =
-          Element::tangent(kinematics, c.cell, material[c.body], gather(c, U), history.data() + c.history, step, R, K);
+      if (!c.at_top_plate) continue;
+      Evaluation evaluation;
+      const PointStatus status = evaluation.set(kinematics, c.cell, material[c.body], gather(c, U),
+                                                history.data() + c.history, step, nullptr, false);
+      if (status != PointStatus::ok) return failure_of(c, status);
+      const Vector R = Element::forces(kinematics, c.cell, evaluation);
+      for (int k = 0; k < dofs; ++k) F[c.dof[k]] += R[k];
+    }
+    return {};
+  }
+
+  PetscErrorCode AddJacobian(const double *U, const History &history, StepWeights step, Mat A,
+                             BulkFailure &failure) override
+  {
+    typename Element::Matrix K;
+    PetscScalar *values = nullptr;
+    Mat own;
+    PetscFunctionBeginUser;
+    PetscCall(OwnBlock(A, own));
+    if (A == located) PetscCall(MatSeqAIJGetArray(own, &values));
+    for (std::size_t n = 0; n < cells.size(); ++n) {
+      const CellData &c = cells[n];
+      const PointStatus status = Evaluate(n, U, history, step);
       if (status != PointStatus::ok) {
         failure = failure_of(c, status);
         break;
       }
-      PetscCall(MatSetValuesLocal(A, dofs, c.dof.data(), dofs, c.dof.data(), K.data(), ADD_VALUES));
+      Element::tangent(kinematics, c.cell, known[n].evaluation, K);
+      if (values && c.first_entry != elsewhere)
+        for (int k = 0; k < dofs * dofs; ++k) {
+          const PetscInt place = entries[c.first_entry + k];
+          if (place >= 0) values[place] += K.data()[k];
+        }
+      else
+        PetscCall(MatSetValuesLocal(A, dofs, c.dof.data(), dofs, c.dof.data(), K.data(), ADD_VALUES));
     }
+    if (values) PetscCall(MatSeqAIJRestoreArray(own, &values));
+    PetscFunctionReturn(0);
+  }
+
+  PetscErrorCode LocateEntries(Mat A) override
+  {
+    Mat own;
+    PetscInt first, last, rows;
+    const PetscInt *row, *column, *to_global;
+    ISLocalToGlobalMapping mapping;
+    PetscBool known_rows;
+    PetscFunctionBeginUser;
+    located = nullptr;
+    entries.clear();
+    PetscCall(OwnBlock(A, own));
+    if (!own) PetscFunctionReturn(0);
+    PetscCall(MatGetOwnershipRange(A, &first, &last));
+    PetscCall(MatGetLocalToGlobalMapping(A, &mapping, nullptr));
+    PetscCall(ISLocalToGlobalMappingGetIndices(mapping, &to_global));
+    PetscCall(MatGetRowIJ(own, 0, PETSC_FALSE, PETSC_FALSE, &rows, &row, &column, &known_rows));
+    PetscCheck(known_rows, PETSC_COMM_SELF, PETSC_ERR_SUP, "the matrix does not show its rows");
+    for (CellData &c : cells) {
+      std::array<PetscInt, dofs> index; // in this rank's rows; negative where prescribed
+      bool all_own = true;
+      for (int k = 0; k < dofs; ++k) {
+        const PetscInt global = to_global[c.dof[k]];
+        index[k] = global < 0 ? -1 : global - first;
+        all_own = all_own && (global < 0 || (global >= first && global < last));
+      }
+      c.first_entry = all_own ? entries.size() : elsewhere;
+      if (!all_own) continue;
+      for (PetscInt i : index)
+        for (PetscInt j : index)
+          entries.push_back(i < 0 || j < 0 ? -1
+                                           : static_cast<PetscInt>(
+                                                 std::lower_bound(column + row[i], column + row[i + 1], j) - column));
+    }
+    PetscCall(MatRestoreRowIJ(own, 0, PETSC_FALSE, PETSC_FALSE, &rows, &row, &column, &known_rows));
+    PetscCall(ISLocalToGlobalMappingRestoreIndices(mapping, &to_global));
+    located = A;
     PetscFunctionReturn(0);
   }
 
@@ -85,15 +155,16 @@ public:
   }
 
   BulkFailure Advance(const double *U, const History &history, StepWeights step, History &next,
-                      CellEnergy &energy) const override
+                      CellEnergy &energy) override
   {
-    for (const CellData &c : cells) {
-      typename Element::template Vector<double> R;
-      const PointStatus status =
-          Element::residual(kinematics, c.cell, material[c.body], gather(c, U), history.data() + c.history, step, R,
-                            next.data() + c.history, &energy);
-      if (status != PointStatus::ok) return failure_of(c, status);
+    for (std::size_t n = 0; n < cells.size(); ++n) {
+      const PointStatus status = Evaluate(n, U, history, step);
+      if (status != PointStatus::ok) return failure_of(cells[n], status);
+      const CellEnergy part = known[n].evaluation.energy(cells[n].cell);
+      energy.stored += part.stored;
+      energy.dissipated += part.dissipated;
     }
+    next = history_after;
     return {};
   }
 
@@ -121,17 +192,59 @@ public:
   }
 
 private:
+  static constexpr std::size_t elsewhere = std::numeric_limits<std::size_t>::max();
+
   struct CellData {
     int body;
     std::array<PetscInt, dofs> dof; ///< offsets in a local vector
     std::array<double, 2> centre;
-    std::size_t history; ///< offset of its first point
+    std::size_t history;     ///< offset of its first point
+    std::size_t first_entry; ///< in `entries`; `elsewhere` if some of its unknowns are another rank's
+    bool at_top_plate;
     CellType cell;
   };
 
-  typename Element::template Vector<double> gather(const CellData &c, const double *U) const
+  /// The last evaluation of a cell and what it was asked.
+  struct Known {
+    Vector U;
+    double step = -1; ///< none yet
+    Evaluation evaluation;
+  };
+
+  /// SNES asks for the residual and then for the tangent at the same U, and an accepted step for the internal variables
+  /// there: the material, which is most of the work, answers once. What it was asked is compared bit by bit.
+  PointStatus Evaluate(std::size_t n, const double *U, const History &history, StepWeights step)
   {
-    typename Element::template Vector<double> u;
+    const CellData &c = cells[n];
+    Known &k = known[n];
+    const Vector u = gather(c, U);
+    const double *before = history.data() + c.history;
+    const auto size = static_cast<std::size_t>(Element::points * material[c.body].history_size());
+    double *copy = history_before.data() + c.history;
+    if (k.step == step.step && k.U == u && std::equal(before, before + size, copy)) return PointStatus::ok;
+    const PointStatus status =
+        k.evaluation.set(kinematics, c.cell, material[c.body], u, before, step, history_after.data() + c.history, true);
+    k.step = status == PointStatus::ok ? step.step : -1;
+    k.U = u;
+    std::copy(before, before + size, copy);
+    return status;
+  }
+
+  /// The block of an AIJ matrix that this rank's unknowns share with each other; null for other types.
+  static PetscErrorCode OwnBlock(Mat A, Mat &own)
+  {
+    PetscBool serial, distributed;
+    PetscFunctionBeginUser;
+    PetscCall(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(A), MATSEQAIJ, &serial));
+    PetscCall(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(A), MATMPIAIJ, &distributed));
+    own = serial ? A : nullptr;
+    if (distributed) PetscCall(MatMPIAIJGetSeqAIJ(A, &own, nullptr, nullptr));
+    PetscFunctionReturn(0);
+  }
+
+  Vector gather(const CellData &c, const double *U) const
+  {
+    Vector u;
     for (int k = 0; k < dofs; ++k) u[k] = U[c.dof[k]];
     return u;
   }
@@ -142,6 +255,10 @@ private:
   Viscoelastic<double> material[2];
   std::vector<CellData> cells;
   std::size_t history_size = 0;
+  std::vector<Known> known;              ///< by cell
+  History history_before, history_after; ///< of the evaluations in `known`
+  std::vector<PetscInt> entries;         ///< places in the values of OwnBlock, -1 where prescribed
+  Mat located = nullptr;                 ///< the matrix that `entries` is about
 
 public:
   bool sound = true; ///< no cell is degenerate or inside out

@@ -32,18 +32,24 @@ public:
   /// Forces of the displacements in the local array `U` (prescribed ones included) are added to the local array `F`
   /// [N], and their absolute values to `magnitude`, against which a residual is small.
   virtual BulkFailure AddResidual(const double *U, const History &history, StepWeights step, double *F,
-                                  double *magnitude) const = 0;
+                                  double *magnitude) = 0;
+
+  /// The forces of those cells alone that are bonded to the top plate.
+  virtual BulkFailure AddTopPlateForces(const double *U, const History &history, StepWeights step, double *F) const = 0;
 
   /// Adds the tangent to the matrix `A` (global, with a local-to-global mapping). Collective only in assembly.
   virtual PetscErrorCode AddJacobian(const double *U, const History &history, StepWeights step, Mat A,
-                                     BulkFailure &failure) const = 0;
+                                     BulkFailure &failure) = 0;
 
   /// Inserts zeros where AddJacobian will add.
   virtual PetscErrorCode AddPattern(Mat A) const = 0;
 
+  /// Looks up where AddJacobian will add to an assembled matrix, which spares it the search.
+  virtual PetscErrorCode LocateEntries(Mat A) = 0;
+
   /// Internal variables at the end of a step that ended at U, and the energies of this rank's cells.
   virtual BulkFailure Advance(const double *U, const History &history, StepWeights step, History &next,
-                              CellEnergy &energy) const = 0;
+                              CellEnergy &energy) = 0;
 
   virtual History InitialHistory() const = 0;
 

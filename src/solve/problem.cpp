@@ -203,6 +203,7 @@ PetscErrorCode Problem::BuildMatrix()
   PetscCall(MatPreallocatorPreallocate(counter, PETSC_TRUE, A));
   PetscCall(MatDestroy(&counter));
   PetscCall(MatSetOption(A, MAT_NEW_NONZERO_LOCATION_ERR, PETSC_TRUE));
+  PetscCall(bulk->LocateEntries(A));
   *jacobian.put() = A;
   PetscCall(TSSetIJacobian(ts, A, A, nullptr, nullptr)); // null: the DM's callback stays
   PetscFunctionReturn(0);

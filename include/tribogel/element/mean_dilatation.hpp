@@ -32,52 +32,29 @@ public:
   template <class T> using Vector = Eigen::Matrix<T, dofs, 1>;
   using Matrix = Eigen::Matrix<double, dofs, dofs, Eigen::RowMajor>;
 
-  /// Internal forces R [N] for nodal unknowns U [mm] (node by node). `history` holds the internal variables at the
-  /// points at t_n (points x material.history_size()), `history_new`, if not null, receives those at t_(n+1).
-  template <class T, class Material>
-  static PointStatus residual(const Kinematics &kinematics, const CellType &cell, const Material &material,
-                              const Vector<T> &U, const T *history, StepWeights step, Vector<T> &R,
-                              T *history_new = nullptr, CellEnergy *energy = nullptr)
-  {
-    State<T> s;
-    const PointStatus status = s.evaluate(kinematics, cell, material, U, history, step, history_new, false, energy);
-    if (status != PointStatus::ok) return status;
-    Rows<T> force;
-    for (auto &row : force) row.fill(T(0));
-    for (int q = 0; q < points; ++q) {
-      const Inputs<T> conjugate = cell.point[q].weight * stacked(s.first_piola(q)).transpose() *
-                                  variations(kinematics, cell.point[q], s.field[q]);
-      add_rows(cell.point[q], conjugate, force);
-    }
-    scatter(force, R);
-    return status;
-  }
-
-  /// The same with the consistent tangent K = dR/dU [N/mm].
-  template <class Material>
-  static PointStatus tangent(const Kinematics &kinematics, const CellType &cell, const Material &material,
-                             const Vector<double> &U, const double *history, StepWeights step, Vector<double> &R,
-                             Matrix &K);
-
-private:
-  using Point = typename CellType::Point;
-  static constexpr auto input = Kinematics::inputs;
-  static constexpr int inputs = static_cast<int>(input.size());
-
-  template <class T> using Inputs = Eigen::Matrix<T, 1, inputs>;
-  template <class T> using Stack = Eigen::Matrix<T, 9, inputs, Eigen::RowMajor>; ///< 3x3 entries (3 i + j), by input
-  template <class T> using Rows = std::array<std::array<T, nodes>, unknowns>;    ///< one number a degree of freedom
-
-  template <class T> struct State {
+  /// What follows from the unknowns of one cell, at its points; forces and tangent are made of it.
+  template <class T> struct Evaluation {
     typename Kinematics::template Field<T> field[points];
     Matrix3<T> inverse[points]; ///< F^-1
     T J[points], theta[points], pressure[points];
     Response<T> response[points];
 
+    /// For nodal unknowns U [mm] (node by node). `history` holds the internal variables at the points at t_n (points x
+    /// material.history_size()), `history_new`, if not null, receives those at t_(n+1). Nothing means anything unless
+    /// the status is ok.
     template <class Material>
-    PointStatus evaluate(const Kinematics &kinematics, const CellType &cell, const Material &material,
-                         const Vector<T> &U, const T *history, StepWeights step, T *history_new, bool with_tangent,
-                         CellEnergy *energy);
+    PointStatus set(const Kinematics &kinematics, const CellType &cell, const Material &material, const Vector<T> &U,
+                    const T *history, StepWeights step, T *history_new, bool with_tangent);
+
+    CellEnergy energy(const CellType &cell) const
+    {
+      CellEnergy sum;
+      for (int q = 0; q < points; ++q) {
+        sum.stored += cell.point[q].weight * value(response[q].energy);
+        sum.dissipated += cell.point[q].weight * value(response[q].dissipated);
+      }
+      return sum;
+    }
 
     /// Coefficients of the L2 projection of f on the modes.
     Eigen::Matrix<T, modes, 1> project(const CellType &cell, const T *f) const
@@ -98,6 +75,35 @@ private:
     }
     Matrix3<T> first_piola(int q) const { return kirchhoff(q) * inverse[q].transpose(); }
   };
+
+  /// Internal forces [N], node by node.
+  template <class T> static Vector<T> forces(const Kinematics &kinematics, const CellType &cell, const Evaluation<T> &s)
+  {
+    Rows<T> rows;
+    for (auto &row : rows) row.fill(T(0));
+    for (int q = 0; q < points; ++q) {
+      const Point &p = cell.point[q];
+      const Inputs<T> conjugate =
+          p.weight * stacked(s.first_piola(q)).transpose() * variations(kinematics, p, s.field[q]);
+      add_rows(p, conjugate, rows);
+    }
+    Vector<T> R;
+    for (int a = 0; a < nodes; ++a)
+      for (int i = 0; i < unknowns; ++i) R[a * unknowns + i] = rows[i][a];
+    return R;
+  }
+
+  /// Their consistent derivative with respect to the unknowns [N/mm], of an evaluation with tangent.
+  static void tangent(const Kinematics &kinematics, const CellType &cell, const Evaluation<double> &s, Matrix &K);
+
+private:
+  using Point = typename CellType::Point;
+  static constexpr auto input = Kinematics::inputs;
+  static constexpr int inputs = static_cast<int>(input.size());
+
+  template <class T> using Inputs = Eigen::Matrix<T, 1, inputs>;
+  template <class T> using Stack = Eigen::Matrix<T, 9, inputs, Eigen::RowMajor>; ///< 3x3 entries (3 i + j), by input
+  template <class T> using Rows = std::array<std::array<T, nodes>, unknowns>;    ///< one number a degree of freedom
 
   template <class T> static Eigen::Matrix<T, 9, 1> stacked(const Matrix3<T> &A)
   {
@@ -151,15 +157,9 @@ private:
     });
   }
 
-  template <class T> static void scatter(const Rows<T> &rows, Vector<T> &R)
-  {
-    for (int a = 0; a < nodes; ++a)
-      for (int i = 0; i < unknowns; ++i) R[a * unknowns + i] = rows[i][a];
-  }
-
   using Curvature = Eigen::Matrix<double, inputs + 1, inputs + 1, Eigen::RowMajor>;
   using Rates = Eigen::Matrix<double, 9, inputs + 1, Eigen::RowMajor>;
-  static Curvature curvature(const Kinematics &kinematics, const State<double> &s, int q, const Rates &l);
+  static Curvature curvature(const Kinematics &kinematics, const Evaluation<double> &s, int q, const Rates &l);
 
   /// [i][a][j][b]: the tangent, unknown by unknown, so that the loop over b is one of the processor's vectors. Only
   /// i <= j is filled.
@@ -170,10 +170,10 @@ private:
 template <class Kinematics, int order>
 template <class T>
 template <class Material>
-PointStatus MeanDilatation<Kinematics, order>::State<T>::evaluate(const Kinematics &kinematics, const CellType &cell,
+PointStatus MeanDilatation<Kinematics, order>::Evaluation<T>::set(const Kinematics &kinematics, const CellType &cell,
                                                                   const Material &material, const Vector<T> &U,
                                                                   const T *history, StepWeights step, T *history_new,
-                                                                  bool with_tangent, CellEnergy *energy)
+                                                                  bool with_tangent)
 {
   using std::cbrt;
   const int stride = material.history_size();
@@ -209,10 +209,6 @@ PointStatus MeanDilatation<Kinematics, order>::State<T>::evaluate(const Kinemati
                                     history_new ? history_new + q * stride : nullptr, with_tangent);
     if (response[q].status != PointStatus::ok) return response[q].status;
     s[q] = (response[q].tau[0] + response[q].tau[1] + response[q].tau[2]) / (3.0 * theta[q]);
-    if (energy) {
-      energy->stored += p.weight * value(response[q].energy);
-      energy->dissipated += p.weight * value(response[q].dissipated);
-    }
   }
   const auto mean = project(cell, s);
   for (int q = 0; q < points; ++q) {
@@ -225,7 +221,7 @@ PointStatus MeanDilatation<Kinematics, order>::State<T>::evaluate(const Kinemati
 /// Second derivative of the incremental potential at one point with respect to the inputs and, last, ln theta, THEORY
 /// (2.6). The columns of `l` are the spatial velocity gradients that go with them.
 template <class Kinematics, int order>
-auto MeanDilatation<Kinematics, order>::curvature(const Kinematics &kinematics, const State<double> &s, int q,
+auto MeanDilatation<Kinematics, order>::curvature(const Kinematics &kinematics, const Evaluation<double> &s, int q,
                                                   const Rates &l) -> Curvature
 {
   using Row = Eigen::Matrix<double, 1, inputs + 1>;
@@ -285,20 +281,13 @@ void MeanDilatation<Kinematics, order>::add_inputs(const Point &p, const Curvatu
 }
 
 template <class Kinematics, int order>
-template <class Material>
-PointStatus MeanDilatation<Kinematics, order>::tangent(const Kinematics &kinematics, const CellType &cell,
-                                                       const Material &material, const Vector<double> &U,
-                                                       const double *history, StepWeights step, Vector<double> &R,
-                                                       Matrix &K)
+void MeanDilatation<Kinematics, order>::tangent(const Kinematics &kinematics, const CellType &cell,
+                                                const Evaluation<double> &s, Matrix &K)
 {
-  State<double> s;
-  const PointStatus status = s.evaluate(kinematics, cell, material, U, history, step, nullptr, true, nullptr);
-  if (status != PointStatus::ok) return status;
-
   // The dilatation depends on all of the cell's unknowns through a few modes: beside the blocks of inputs, a tangent
   // of low rank.
   using Dense = Eigen::Matrix<double, modes, dofs, Eigen::RowMajor>; // columns unknown by unknown, as Blocks
-  Rows<double> force{}, moment[modes]{}, coupling[modes]{};
+  Rows<double> moment[modes]{}, coupling[modes]{};
   Eigen::Matrix<double, modes, modes> dilatational = Eigen::Matrix<double, modes, modes>::Zero();
   Blocks blocks{};
   for (int q = 0; q < points; ++q) {
@@ -312,7 +301,6 @@ PointStatus MeanDilatation<Kinematics, order>::tangent(const Kinematics &kinemat
                                                    dF.row(3 * i + 1) * s.inverse[q](1, j) +
                                                    dF.row(3 * i + 2) * s.inverse[q](2, j);
     const Curvature H = p.weight * curvature(kinematics, s, q, l);
-    add_rows(p, Inputs<double>(p.weight * stacked(s.first_piola(q)).transpose() * dF), force);
     add_inputs(p, H, blocks);
     const Inputs<double> dJ = p.weight * s.J[q] * (l.row(0) + l.row(4) + l.row(8)).template head<inputs>();
     for (int k = 0; k < modes; ++k) {
@@ -332,8 +320,6 @@ PointStatus MeanDilatation<Kinematics, order>::tangent(const Kinematics &kinemat
       for (int a = 0; a < nodes; ++a)
         for (int b = 0; b < nodes; ++b)
           K(a * unknowns + i, b * unknowns + j) = K(b * unknowns + j, a * unknowns + i) = blocks[i][a][j][b];
-  scatter(force, R);
-  return status;
 }
 
 } // namespace tribogel
