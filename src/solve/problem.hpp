@@ -94,7 +94,7 @@ public:
   PetscErrorCode UpdatePattern(SNES snes);
   PetscErrorCode AcceptStep(PetscReal time, Vec U);
   PetscErrorCode JudgeResidual(Vec F, bool &converged);
-  double first_step() const; ///< of the phase [s]
+  PetscErrorCode FirstStep(PetscReal &step, PetscReal &unresolved) const; ///< of the phase [s]
   PetscErrorCode SumPlateLoads(PlateLoads &loads) const;
 
 private:

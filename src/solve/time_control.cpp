@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 namespace tribogel
@@ -15,12 +16,27 @@ namespace tribogel
 namespace
 {
 
-/// First step of a phase, for which there is no error estimate: over its duration, and over the shortest relaxation
-/// time.
-constexpr double first_step_fraction = 1e-4, first_step_of_relaxation = 0.05;
+/// Over a phase's duration: nobody looks at what is over sooner.
+constexpr double shortest_of_interest = 1.0 / 500;
 constexpr double smallest_step_fraction = 1e-12;
 /// An estimate with which TS repeats the length of the step: 0.9, its factor of safety, squared.
 constexpr double keeps_the_step = 0.81;
+
+/// What a free bar of the softer gel would bear at the schedule's largest compression [N]: less than bonded gels bear,
+/// of the same order, and known before anything touches.
+double expected_force(const Scene &scene)
+{
+  double modulus = scene.bottom.material.equilibrium.shear_modulus(), height = scene.bottom.height, approach = 0;
+  double radius = scene.bottom.radius;
+  if (scene.has_top) {
+    modulus = std::min(modulus, scene.top.material.equilibrium.shear_modulus());
+    height += scene.top.height;
+    radius = scene.top.radius;
+  }
+  for (const Phase &phase : scene.schedule) approach = std::max(approach, std::abs(phase.end_approach));
+  const double compression = std::max(0.0, approach - (scene.has_top ? scene.initial_gap : 0)) / height;
+  return 3 * modulus * std::numbers::pi * radius * radius * compression;
+}
 
 /// TS's error estimate, of what is looked at: the local error of N and T, from the second difference of their last
 /// three values as TS takes it of U (h^2/2 times the second derivative), over `-ts_atol` times their largest values so
@@ -28,7 +44,7 @@ constexpr double keeps_the_step = 0.81;
 PetscErrorCode EvaluateError(TS ts, NormType, PetscInt *order, PetscReal *error)
 {
   Problem *problem;
-  PetscReal step, fraction;
+  PetscReal step, first, unresolved, fraction;
   PetscFunctionBeginUser;
   PetscCall(TSGetApplicationContext(ts, &problem));
   PetscCall(TSGetTimeStep(ts, &step));
@@ -42,16 +58,18 @@ PetscErrorCode EvaluateError(TS ts, NormType, PetscInt *order, PetscReal *error)
   // What is only round-off beside the other (the torque before any rotation) is not tracked.
   constexpr double negligible = 1e-8;
   const double L = problem->scene.twist_length();
-  const double scale[2] = {std::max(state.largest[0], negligible * state.largest[1] / L),
-                           std::max(state.largest[1], negligible * state.largest[0] * L)};
+  const double scale[2] = {
+      std::max({state.largest[0], expected_force(problem->scene), negligible * state.largest[1] / L}),
+      std::max(state.largest[1], negligible * state.largest[0] * L)};
   *error = 0;
   for (int k = 0; k < 2; ++k) {
     const double bend = (loads[k] - state.loads[k]) / step - state.load_rates[k];
     if (scale[k] > 0)
       *error = std::max(*error, step * step / (step + state.step) * std::abs(bend) / (fraction * scale[k]));
   }
-  // What is over within the first step of a phase is not resolved: Euler's rule damps it.
-  if (step <= problem->first_step()) *error = std::min(*error, keeps_the_step);
+  // What is over sooner than anybody looks is not resolved: Euler's rule damps it.
+  PetscCall(problem->FirstStep(first, unresolved));
+  if (step <= unresolved) *error = std::min(*error, keeps_the_step);
   PetscFunctionReturn(0);
 }
 
@@ -99,7 +117,7 @@ PetscErrorCode Problem::SetUpTs()
   PetscCall(SNESGetLineSearch(snes, &search));
   PetscCall(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
   PetscCall(SNESSetDivergenceTolerance(snes, -1)); // a change of the active set may raise the residual at first
-  PetscCall(SNESSetTolerances(snes, 0, 1e-9, 0, 25, -1));
+  PetscCall(SNESSetTolerances(snes, 0, 1e-7, 0, 25, -1));
   PetscCall(SNESGetKSP(snes, &ksp));
   PetscCall(KSPSetType(ksp, KSPPREONLY));
   PetscCall(KSPGetPC(ksp, &pc));
@@ -121,7 +139,7 @@ PetscErrorCode Problem::SumPlateLoads(PlateLoads &loads) const
 PetscErrorCode Problem::AcceptStep(PetscReal time, Vec U)
 {
   SNES snes;
-  Vec local;
+  Vec local, solution;
   const PetscScalar *u;
   StepReport report;
   CellEnergy energy;
@@ -133,9 +151,12 @@ PetscErrorCode Problem::AcceptStep(PetscReal time, Vec U)
   PetscCall(VecWAXPY(state.Udot, -1, before, U));
   PetscCall(VecScale(state.Udot, 1 / step)); // backward Euler's rate
 
+  // SNES's solution: TS's U is that to round-off, but this is where the bulk has been evaluated.
+  PetscCall(TSGetSNES(ts, &snes));
+  PetscCall(SNESGetSolution(snes, &solution));
   PetscCall(DMGetLocalVector(mesh.dm, &local));
   PetscCall(VecZeroEntries(local));
-  PetscCall(DMGlobalToLocal(mesh.dm, state.U, INSERT_VALUES, local));
+  PetscCall(DMGlobalToLocal(mesh.dm, solution, INSERT_VALUES, local));
   PetscScalar *values;
   PetscCall(VecGetArray(local, &values));
   SetBoundary(time, values, nullptr);
@@ -161,7 +182,6 @@ PetscErrorCode Problem::AcceptStep(PetscReal time, Vec U)
     state.largest[k] = std::max(state.largest[k], std::abs(loads[k]));
   }
 
-  PetscCall(TSGetSNES(ts, &snes));
   PetscCall(SNESGetIterationNumber(snes, &report.newton_iterations));
   PetscCall(SNESGetLinearSolveIterations(snes, &report.linear_iterations));
   report.ends_phase = time == phase().end_time;
@@ -218,19 +238,29 @@ PetscErrorCode Problem::UpdatePattern(SNES snes)
   PetscFunctionReturn(0);
 }
 
-double Problem::first_step() const
+/// There is no error estimate for the first step of a phase. A relaxation in the time tau has the local error h^2/(2
+/// tau^2):
+/// `-ts_atol` with tau the shortest relaxation time of the gels. Errors of steps up to `unresolved` do not count.
+PetscErrorCode Problem::FirstStep(PetscReal &step, PetscReal &unresolved) const
 {
-  if (given_first_step > 0) return std::min(given_first_step, phase().duration());
-  double step = first_step_fraction * phase().duration();
+  PetscReal fraction;
+  PetscFunctionBeginUser;
+  PetscCall(TSGetTolerances(ts, &fraction, nullptr, nullptr, nullptr));
+  double tau = shortest_of_interest * phase().duration();
   for (const Specimen *gel : {&scene.bottom, scene.has_top ? &scene.top : &scene.bottom})
-    for (const auto &branch : gel->material.branches)
-      step = std::min(step, first_step_of_relaxation * shape_relaxation_time(branch));
-  return step;
+    for (const auto &branch : gel->material.branches) tau = std::min(tau, shape_relaxation_time(branch));
+  unresolved = step = std::min(std::sqrt(2 * fraction) * tau, phase().duration());
+  if (given_first_step > 0) {
+    step = std::min(given_first_step, phase().duration());
+    unresolved = std::min(step, unresolved);
+  }
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode Problem::RunPhase(int k)
 {
   TSAdapt adapt;
+  PetscReal step, unresolved;
   PetscFunctionBeginUser;
   state.phase = k;
   state.steps_in_phase = 0;
@@ -239,7 +269,8 @@ PetscErrorCode Problem::RunPhase(int k)
   PetscCall(TSAdaptSetStepLimits(adapt, smallest_step_fraction * duration, PETSC_DEFAULT));
   PetscCall(TSSetTime(ts, phase().start_time));
   PetscCall(TSSetMaxTime(ts, phase().end_time));
-  PetscCall(TSSetTimeStep(ts, first_step()));
+  PetscCall(FirstStep(step, unresolved));
+  PetscCall(TSSetTimeStep(ts, step));
   PetscCall(TSRestartStep(ts));
   PetscCall(TSSolve(ts, state.U));
   PetscFunctionReturn(0);
