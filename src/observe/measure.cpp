@@ -72,6 +72,17 @@ void average(const Problem &problem, const std::vector<SurfaceResults> &surfaces
   m.mu_pressure_weighted = friction / force;
 }
 
+/// Nodal force times sliding velocity. A sticking node's velocity is what Newton's method left of zero: it counts as
+/// zero.
+double friction_power(const std::vector<SurfaceResults> &surfaces)
+{
+  double power = 0;
+  for (const SurfaceResults &surface : surfaces)
+    for (const NodeResult &node : surface.nodes)
+      if (node.carries && node.status == ContactStatus::slip) power -= node.weight * node.nominal.dot(node.velocity);
+  return power;
+}
+
 const char *name_of(ContactStatus status)
 {
   return status == ContactStatus::open ? "open" : status == ContactStatus::stick ? "stick" : "slip";
@@ -146,6 +157,7 @@ PetscErrorCode Measure(Problem &problem, Measurement &measurement, std::vector<P
       measurement.contact_force = results.force;
       measurement.contact_torque = results.torque;
       average(problem, results.surfaces, measurement);
+      measurement.friction_power = friction_power(results.surfaces);
       if (profile) tabulate(problem, results.surfaces, *profile);
     }
   }

@@ -13,7 +13,8 @@ namespace
 constexpr const char *history_header =
     "time_s,phase,approach_mm,rotation_rad,rate_rad_per_s,normal_force_N,torque_Nmm,contact_radius_mm,mu_apparent,"
     "mu_gong,mu_mean,mu_area_weighted,mu_pressure_weighted,newton_iterations,linear_iterations,step_s,contact_force_N,"
-    "contact_torque_Nmm,force_mismatch_N,torque_mismatch_Nmm";
+    "contact_torque_Nmm,force_mismatch_N,torque_mismatch_Nmm,work_of_plates_Nmm,stored_energy_Nmm,"
+    "viscous_dissipation_Nmm,frictional_dissipation_Nmm";
 constexpr const char *profile_header =
     "time_s,phase,surface,reference_r_mm,reference_theta_rad,reference_z_mm,r_mm,theta_rad,z_mm,pressure_MPa,"
     "traction_radial_MPa,traction_circumferential_MPa,sliding_velocity_mm_per_s,mu,status";
@@ -99,6 +100,8 @@ PetscErrorCode Recorder::Record(Problem &problem, const StepReport &report)
   row.rate = phase.rate;
   row.step = state.step;
   row.report = report;
+  PetscCall(AddEnergies(problem, rows.empty() ? nullptr : &rows.back().measurement, row.measurement,
+                        rows.empty() ? EnergyBalance{} : rows.back().energy, row.energy));
   rows.push_back(row);
   write_row(row);
   if (report.ends_phase) {
@@ -115,10 +118,12 @@ void Recorder::write_row(const HistoryRow &row)
 {
   if (!history.is_open()) return;
   const Measurement &m = row.measurement;
+  const EnergyBalance &e = row.energy;
   history << comma_separated(row.time, row.phase, row.approach, row.rotation, row.rate, m.normal_force, m.torque,
                              m.contact_radius, m.mu_apparent, m.mu_gong, m.mu_mean, m.mu_area_weighted,
                              m.mu_pressure_weighted, row.report.newton_iterations, row.report.linear_iterations,
-                             row.step, m.contact_force, m.contact_torque, m.force_mismatch(), m.torque_mismatch())
+                             row.step, m.contact_force, m.contact_torque, m.force_mismatch(), m.torque_mismatch(),
+                             e.work, e.stored, e.viscous, e.friction)
           << std::endl;
 }
 

@@ -2,6 +2,7 @@
 /// end). Rows are flushed as they come, so that nothing is lost when a run dies.
 #pragma once
 
+#include "observe/energy.hpp"
 #include "observe/measure.hpp"
 
 #include <fstream>
@@ -24,6 +25,7 @@ struct HistoryRow {
   double time, approach, rotation, rate, step;
   int phase; ///< counted from 1
   Measurement measurement;
+  EnergyBalance energy;
   StepReport report;
 };
 

@@ -44,20 +44,28 @@ Json describe(const PhaseEnd &end)
           {"bottom_surface_rim_displacement_mm", number(end.rim_displacement)}};
 }
 
-/// Largest imbalance between plate and contact over the run, absolute and relative to the largest force and torque.
+/// Largest imbalance between plate and contact over the run beside the largest force and torque; the energies at its
+/// end.
 Json balances(const Recorder &recorder)
 {
-  double force = 0, torque = 0, most_force = 0, most_torque = 0;
+  double force = 0, torque = 0, most_force = 0, most_torque = 0, most_work = 0;
   for (const HistoryRow &row : recorder.rows) {
     force = std::max(force, std::abs(row.measurement.force_mismatch()));
     torque = std::max(torque, std::abs(row.measurement.torque_mismatch()));
     most_force = std::max(most_force, std::abs(row.measurement.normal_force));
     most_torque = std::max(most_torque, std::abs(row.measurement.torque));
+    most_work = std::max(most_work, std::abs(row.energy.work));
   }
+  const EnergyBalance energy = recorder.rows.empty() ? EnergyBalance{} : recorder.rows.back().energy;
   return {{"max_normal_force_N", most_force},
           {"max_torque_Nmm", most_torque},
           {"max_force_mismatch_N", force},
-          {"max_torque_mismatch_Nmm", torque}};
+          {"max_torque_mismatch_Nmm", torque},
+          {"work_of_plates_Nmm", energy.work},
+          {"stored_energy_Nmm", energy.stored},
+          {"viscous_dissipation_Nmm", energy.viscous},
+          {"frictional_dissipation_Nmm", energy.friction},
+          {"energy_residual_relative", number(energy.residual() / most_work)}};
 }
 
 } // namespace

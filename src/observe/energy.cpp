@@ -1,0 +1,25 @@
+#include "observe/energy.hpp"
+
+namespace tribogel
+{
+
+PetscErrorCode AddEnergies(const Problem &problem, const Measurement *last, const Measurement &now,
+                           const EnergyBalance &before, EnergyBalance &after)
+{
+  const State &state = problem.state;
+  const Phase &phase = problem.phase();
+  double sums[2] = {state.stored, state.dissipated};
+  PetscFunctionBeginUser;
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(state.U)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm));
+  after = before;
+  after.stored = sums[0];
+  after.viscous = sums[1];
+  if (!last) PetscFunctionReturn(0);
+  const double force = 0.5 * (last->normal_force + now.normal_force), torque = 0.5 * (last->torque + now.torque);
+  after.work += state.step * (force * phase.approach_rate() + torque * (phase.rate - problem.scene.bottom_plate_rate));
+  after.friction += state.step * now.friction_power;
+  PetscFunctionReturn(0);
+}
+
+} // namespace tribogel
