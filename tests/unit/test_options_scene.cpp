@@ -83,7 +83,7 @@ TEST(OptionsScene, defaults_are_the_paper_scene)
   EXPECT_EQ(scene.schedule[4].rate, 1);
   for (const Phase &phase : scene.schedule) EXPECT_EQ(phase.end_approach, 0.79);
   EXPECT_EQ(scene.mesh.element_order, 2);
-  EXPECT_EQ(scene.mesh.elements_radial, 16);
+  EXPECT_EQ(scene.mesh.elements_radial, 12);
   EXPECT_EQ(scene.output.directory, "tribogel-output");
   EXPECT_FALSE(scene.output.overwrite);
   EXPECT_TRUE(input.warnings.empty()) << joined(input.warnings);
