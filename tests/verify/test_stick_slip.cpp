@@ -1,0 +1,93 @@
+/// High friction, mu = 0.5 at any speed, on the paper's rheometer with elastic gels: pressed while they stick, turned
+/// from rest through partial slip to full slip, and back to full slip the other way, in steps that the program chooses.
+/// The stick radius shrinks as exp(-angle), so that the last node starts to slide late. In full slip each node carries
+/// mu times its pressure against its sliding velocity, hence
+///
+///     T = mu sum_a A_a p_a r_a cos(angle of the sliding velocity from the circle)
+///
+/// with the nodes' current areas, exactly for the discrete operator. Elastic gels forget the way: full slip backwards
+/// has the same torque with the other sign.
+#include "scenes.hpp"
+#include "solver_options.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tribogel::test
+{
+
+namespace
+{
+
+constexpr double mu = 0.5;
+
+Scene turned_and_back(int order)
+{
+  Scene scene = paper_scene(4, order);
+  scene.top.material = scene.bottom.material = hyperelastic_gel();
+  scene.friction = {{mu}, {0}};
+  scene.schedule = schedule_from_rates({27, 427, 1227}, {0.79, 0.79, 0.79}, {0, 0.01, -0.01});
+  return scene;
+}
+
+/// The torque of full slip from the nodes' pressures, and the same as if all slid along the circle.
+struct SlipTorque {
+  double exact = 0, circumferential = 0;
+  int slipping = 0, others = 0;
+};
+
+SlipTorque slip_torque(const Problem &problem, const std::vector<ProfileRow> &profile)
+{
+  SlipTorque sum;
+  const AxisymmetricContact &model = problem.contact->model();
+  const ContactGeometry &reference = model.reference();
+  for (std::size_t a = 0; a < reference.nodes.size(); ++a) {
+    const NodeResult node = model.result(static_cast<int>(a), problem.scene.friction);
+    const double R = reference.slave.X[a].r;
+    if (!node.carries || R == 0) continue;
+    const auto row = std::find_if(profile.begin(), profile.end(), [&](const ProfileRow &at) {
+      return at.surface == std::string("top") && at.reference_z == 0 && at.reference_r == R;
+    });
+    EXPECT_NE(row, profile.end());
+    ++(node.status == ContactStatus::slip ? sum.slipping : sum.others);
+    const double limit = mu * node.pressure * node.area * row->r;
+    sum.circumferential += limit;
+    sum.exact += limit * node.velocity[1] / node.velocity.norm();
+  }
+  return sum;
+}
+
+} // namespace
+
+TEST(stick_slip, FromRestToFullSlipAndBack)
+{
+  for (int order : {1, 2}) {
+    const SolverOptions options(OptionList{{"-ts_atol", "1e-2"}});
+    Problem problem;
+    Recorder recorder("");
+    run(turned_and_back(order), problem, recorder);
+    ASSERT_EQ(recorder.phases.size(), 3u);
+    const double forth = recorder.phases[1].measurement.torque, back = recorder.phases[2].measurement.torque;
+    const SlipTorque full = slip_torque(problem, recorder.last_profile);
+    EXPECT_GE(full.slipping, 4);
+    EXPECT_EQ(full.others, 0);
+    PetscInt most = 0;
+    double torque = 0, against = 0, reached = 0;
+    for (const HistoryRow &row : recorder.rows) {
+      most = std::max(most, row.report.newton_iterations);
+      if (row.phase == 1) {
+        EXPECT_EQ(row.measurement.torque, 0);
+      }
+      if (row.phase == 1) continue;
+      const double change = (row.measurement.torque - torque) * (row.phase == 2 ? 1 : -1);
+      against = std::max(against, -change / forth);
+      torque = row.measurement.torque;
+      if (row.phase == 2) reached = std::max(reached, torque);
+    }
+    std::printf("order %d: T %.6f and %.6f, sum %.2e, slip %.3e %.3e, against %.2e, steps %zu, most %d, over %.2e\n",
+                order, forth, back, back / forth + 1, full.exact / back - 1, full.circumferential / back, against,
+                recorder.rows.size() - 1, static_cast<int>(most), reached / forth - 1);
+  }
+}
+
+} // namespace tribogel::test
