@@ -26,7 +26,7 @@ Scene turned_and_back(int order)
   Scene scene = paper_scene(4, order);
   scene.top.material = scene.bottom.material = hyperelastic_gel();
   scene.friction = {{mu}, {0}};
-  scene.schedule = schedule_from_rates({27, 427, 1227}, {0.79, 0.79, 0.79}, {0, 0.01, -0.01});
+  scene.schedule = schedule_from_rates({27, 727, 2127}, {0.79, 0.79, 0.79}, {0, 0.01, -0.01});
   return scene;
 }
 
@@ -57,6 +57,24 @@ SlipTorque slip_torque(const Problem &problem, const std::vector<ProfileRow> &pr
   return sum;
 }
 
+/// Forth and back T is monotone up to full slip, where it overshoots a little (0.06 % at order 2, 0.35 % at order 1):
+/// friction that held the gels back radially during the press turns into the circle, and the pressure settles.
+void check_branches(const std::vector<HistoryRow> &rows, double full)
+{
+  double before = 0;
+  for (const HistoryRow &row : rows) {
+    EXPECT_LE(row.report.newton_iterations, 6) << row.time;
+    const double direction = row.phase == 3 ? -1 : 1, torque = row.measurement.torque;
+    if (row.phase == 1) {
+      EXPECT_EQ(torque, 0) << row.time;
+    } else if (direction * before < 0.98 * full) {
+      EXPECT_GT(direction * (torque - before), 0) << row.time;
+    }
+    EXPECT_LT(std::abs(torque), 1.005 * full) << row.time;
+    before = torque;
+  }
+}
+
 } // namespace
 
 TEST(stick_slip, FromRestToFullSlipAndBack)
@@ -71,22 +89,10 @@ TEST(stick_slip, FromRestToFullSlipAndBack)
     const SlipTorque full = slip_torque(problem, recorder.last_profile);
     EXPECT_GE(full.slipping, 4);
     EXPECT_EQ(full.others, 0);
-    PetscInt most = 0;
-    double torque = 0, against = 0, reached = 0;
-    for (const HistoryRow &row : recorder.rows) {
-      most = std::max(most, row.report.newton_iterations);
-      if (row.phase == 1) {
-        EXPECT_EQ(row.measurement.torque, 0);
-      }
-      if (row.phase == 1) continue;
-      const double change = (row.measurement.torque - torque) * (row.phase == 2 ? 1 : -1);
-      against = std::max(against, -change / forth);
-      torque = row.measurement.torque;
-      if (row.phase == 2) reached = std::max(reached, torque);
-    }
-    std::printf("order %d: T %.6f and %.6f, sum %.2e, slip %.3e %.3e, against %.2e, steps %zu, most %d, over %.2e\n",
-                order, forth, back, back / forth + 1, full.exact / back - 1, full.circumferential / back, against,
-                recorder.rows.size() - 1, static_cast<int>(most), reached / forth - 1);
+    EXPECT_NEAR(full.exact / back, 1, 1e-10);
+    EXPECT_NEAR(full.circumferential / -back, 1, 1e-5);
+    EXPECT_NEAR(back / forth, -1, 1e-6);
+    check_branches(recorder.rows, forth);
   }
 }
 
