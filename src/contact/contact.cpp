@@ -64,6 +64,11 @@ PetscErrorCode Contact::BeginStep(const PlateFrames &frames, const double *U)
   PetscFunctionReturn(0);
 }
 
+void Contact::BeginAttempt()
+{
+  for (GelContact &gel : gels) gel.BeginAttempt();
+}
+
 PetscErrorCode Contact::AddResidual(const PlateFrames &frames, const double *U, const double *Udot, double *F,
                                     double *magnitude, std::string &failure)
 {

@@ -29,6 +29,9 @@ public:
   /// Before a step from U: which part of the wall may roll onto the bottom gel during it. Collective.
   PetscErrorCode BeginStep(const PlateFrames &frames, const double *U);
 
+  /// Before each solve of that step: a part of the wall that made the last one fail sits out.
+  void BeginAttempt();
+
   /// Contact forces and conditions are added to the local array `F` (at nodes that this rank owns) and their absolute
   /// parts to `magnitude`. On failure `failure` says why, on every rank. Collective.
   PetscErrorCode AddResidual(const PlateFrames &frames, const double *U, const double *Udot, double *F,

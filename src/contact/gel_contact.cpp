@@ -76,10 +76,23 @@ PetscErrorCode GelContact::BeginStep(const PlateFrames &frames, const double *U)
   PetscCall(Gather(frames, U, nullptr, 1, state));
   const ContactGeometry &geometry = contact.reference();
   const LineChain whole(geometry.slave.facets, mesh->order + 1, static_cast<int>(geometry.slave.X.size()));
-  const int facets = rolling_facets(whole, positions(geometry.slave, state.slave), geometry.master_chain,
-                                    positions(geometry.master, state.master));
+  int facets = rolling_facets(whole, positions(geometry.slave, state.slave), geometry.master_chain,
+                              positions(geometry.master, state.master));
   if (facets != geometry.slave_chain.facet_count()) Touch(facets);
+  while (facets > 0) { // only facets that can be projected now
+    const MortarReport report = contact.update(state, contact.candidate_pairs(state, 0), false);
+    if (report.status == MortarStatus::ok) break;
+    facets = report.facet;
+    Touch(facets);
+  }
+  failed_facet = facets;
   PetscFunctionReturn(0);
+}
+
+/// A wall facet that the last attempt could not project sits out the next.
+void GelContact::BeginAttempt()
+{
+  if (wall && failed_facet < contact.reference().slave_chain.facet_count()) Touch(failed_facet);
 }
 
 /// The nine values of each node (u, rate, multiplier; slave nodes first) as the model wants them.
@@ -142,6 +155,7 @@ PetscErrorCode GelContact::Evaluate(const ContactState<double> &state, bool deri
   if (worst.status != static_cast<int>(MortarStatus::ok)) {
     const auto &facet = slave.facet[static_cast<std::size_t>(worst.facet)];
     failure = describe(static_cast<MortarStatus>(worst.status), slave.node[facet[0]], wall);
+    failed_facet = worst.facet;
   } else if (overhang > largest_overhang * contact.reference().slave_length) {
     std::ostringstream text;
     text << "the top gel hangs over the edge of the bottom gel by " << overhang << " mm, more than "

@@ -23,6 +23,9 @@ public:
   /// Before a step from U: which facets of a wall may touch during it. Collective.
   PetscErrorCode BeginStep(const PlateFrames &frames, const double *U);
 
+  /// Before each solve of that step.
+  void BeginAttempt();
+
   /// Contact forces and conditions are added to the local array `F` (at nodes that this rank owns) and their absolute
   /// parts to `magnitude`. On failure `failure` says why, on every rank. Collective.
   PetscErrorCode AddResidual(const PlateFrames &frames, const double *U, const double *Udot, double *F,
@@ -63,6 +66,7 @@ private:
   const Mesh *mesh = nullptr;
   SurfaceChain slave;
   bool wall = false;
+  int failed_facet = 0; ///< first wall facet that could not be evaluated in this step
   ContactParameters parameters;
   PolynomialFriction<double> friction;
   AxisymmetricContact contact;

@@ -84,6 +84,7 @@ PetscErrorCode Predict(SNES, Vec U, void *context)
   constexpr double much_longer = 2;
   PetscReal step;
   PetscFunctionBeginUser;
+  if (problem.contact) problem.contact->BeginAttempt();
   PetscCall(TSGetTimeStep(problem.ts, &step));
   PetscCall(VecCopy(state.U, U));
   if (state.steps_in_phase >= 1) PetscCall(VecAXPY(U, step, state.Udot));
