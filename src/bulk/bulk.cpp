@@ -219,7 +219,7 @@ private:
     Known &k = known[n];
     const Vector u = gather(c, U);
     const double *before = history.data() + c.history;
-    const auto size = static_cast<std::size_t>(Element::points * material[c.body].history_size());
+    const auto size = static_cast<std::size_t>(Element::points) * material[c.body].history_size();
     double *copy = history_before.data() + c.history;
     if (k.step == step.step && k.U == u && std::equal(before, before + size, copy)) return PointStatus::ok;
     const PointStatus status =
