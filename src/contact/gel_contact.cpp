@@ -187,7 +187,9 @@ PetscErrorCode GelContact::AddResidual(const PlateFrames &frames, const double *
     if (!slave.node[a].multiplier) continue;
     contact.node(a, friction, block);
     const Vector3<double> &lambda = state.multiplier[a];
-    const double D = contact.reference().nodes[a].weight(), in_plane = std::hypot(lambda[0], lambda[2]);
+    const auto &constants = contact.reference().nodes[a];
+    const double D = constants.carries ? constants.weight() : constants.extent,
+                 in_plane = std::hypot(lambda[0], lambda[2]);
     const double extent[3] = {D * in_plane, D * std::abs(lambda[1]), D * in_plane};
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < block.slave_rows; ++k) {

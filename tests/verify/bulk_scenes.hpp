@@ -21,6 +21,7 @@ inline Scene cylinder(double radius, double height, const Viscoelastic<double> &
 {
   Scene scene;
   scene.has_top = false;
+  scene.plate_contact = false; // of the bulk alone
   scene.bottom = {radius, height, material};
   scene.mesh.element_order = order;
   scene.mesh.elements_radial = elements;

@@ -52,7 +52,7 @@ TEST(paper_anchors, DefaultRunMeetsFigure8InFewIterationsAndLongSteps)
       ++slipping;
       EXPECT_NEAR(row.sliding_velocity / (end.rate * row.r), 1, 1e-6);
     }
-  EXPECT_GT(slipping, 30);
+  EXPECT_GE(slipping, 24); // every node but the one on the axis
   // (3.13) assumes a flat contact under uniform pressure: 0.5 % above the pressure-weighted mean here.
   EXPECT_NEAR(end.measurement.mu_apparent / end.measurement.mu_pressure_weighted, 1.005, 0.001);
 }

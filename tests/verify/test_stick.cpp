@@ -69,7 +69,7 @@ TEST(stick, BelowTheLimitTheTorqueIsThatOfTorsionAndNothingCreeps)
       int carrying = 0;
       double fastest = 0;
       for (const ProfileRow &row : is.recorder.last_profile) {
-        if (std::isnan(row.pressure)) continue;
+        if (std::isnan(row.pressure) || row.reference_z > 0) continue; // the wall stays open
         ++carrying;
         EXPECT_STREQ(row.status, "stick");
         fastest = std::max(fastest, row.sliding_velocity);

@@ -79,7 +79,7 @@ void check_branches(const std::vector<HistoryRow> &rows, double full)
 TEST(stick_slip, FromRestToFullSlipAndBack)
 {
   for (int order : {1, 2}) {
-    const SolverOptions options(OptionList{{"-ts_atol", "1e-2"}});
+    const SolverOptions options(OptionList{{"-ts_atol", "1e-3"}, {"-snes_rtol", "1e-10"}});
     Problem problem;
     Recorder recorder("");
     run(turned_and_back(order), problem, recorder);
