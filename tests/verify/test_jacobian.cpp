@@ -38,6 +38,9 @@ Scene scene_of(const Case &c)
   scene.schedule = schedule_from_rates({2.3, 4.1}, {0.31, 0.37}, {0.013, 0.17});
   scene.bottom_plate_rate = 0.021;
   scene.mesh.grading = 2;
+  // Where nodes of the two surfaces meet, the mortar integrals have a kink in their slope and differences a larger
+  // error.
+  scene.mesh.bottom_elements_radial = scene.mesh.elements_radial + 1;
   return scene;
 }
 
