@@ -108,14 +108,18 @@ def read_result(case, directory, failure=""):
 
 
 def read_top_face(path):
-    """Displacements of the top gel's lower face at its centre and rim by phase, from profile.csv."""
+    """Displacements of the top gel's lower face at its centre and rim by phase, from profile.csv. The rim is the first
+    of the nodes farthest out; the wall's come after it."""
     ends = {}
     with open(path, newline="", encoding="utf-8") as file:
         for row in csv.DictReader(file):
             if row["surface"] == "top":
                 point = (float(row["reference_r_mm"]), float(row["reference_z_mm"]) - float(row["z_mm"]))
                 ends.setdefault(int(row["phase"]), []).append(point)
-    return {phase: dict(zip(FROM_PROFILE, (min(points)[1], max(points)[1]))) for phase, points in ends.items()}
+    return {
+        phase: dict(zip(FROM_PROFILE, (choose(points, key=lambda point: point[0])[1] for choose in (min, max))))
+        for phase, points in ends.items()
+    }
 
 
 class Study:
