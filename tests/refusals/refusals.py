@@ -26,7 +26,7 @@ REFUSALS = [
     ("misspelt option", ["-fricton_coefficients", "0,1e-3"], ["-fricton_coefficients = 0,1e-3",
                                                               "nearest is -friction_coefficients"]),
     ("two dashes", ["--top_radius", "9"], ["--top_radius = 9", "nearest is -top_radius"]),
-    ("option that is not built", ["-plate_contact", "true"], ["-plate_contact = true", "unknown"]),
+    ("option that is not built", ["-error_estimate", "true"], ["-error_estimate = true", "unknown"]),
     ("restart, not built", ["-restart", "old"], ["-restart = old", "unknown"]),
     ("misspelt solver option", ["-ksp_typ", "gmres"], ["-ksp_typ = gmres", "nearest is -ksp_type"]),
     ("unknown solver", ["-ksp_type", "gmrs"], ["-ksp_type = gmrs"]),
