@@ -12,7 +12,7 @@ namespace
 
 Scene scene_of(int order, double mu_0)
 {
-  Scene scene = paper_scene(7, order);
+  Scene scene = paper_scene(6, order);
   scene.friction = {{mu_0, 8e-3}, {0, 1}};
   scene.initial_gap = 0.05;
   scene.schedule = schedule_from_rates({3, 5, 9}, {0.47, 0.47, 0.53}, {0, 0.013, 0.27});
