@@ -101,6 +101,7 @@ private:
   PetscErrorCode LocateWorst(const double *f);
   PetscErrorCode SetUpFields();
   PetscErrorCode SetUpTs();
+  PetscErrorCode SetUpLinearSolver(KSP ksp);
   PetscErrorCode RunPhase(int k);
   std::string Explain(TSConvergedReason reason) const;
 

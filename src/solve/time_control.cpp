@@ -92,7 +92,6 @@ PetscErrorCode Problem::SetUpTs()
   SNES snes;
   SNESLineSearch search;
   KSP ksp;
-  PC pc;
   TSAdapt adapt;
   PetscFunctionBeginUser;
   PetscCall(TSCreate(PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm))), ts.put()));
@@ -119,10 +118,7 @@ PetscErrorCode Problem::SetUpTs()
   PetscCall(SNESSetDivergenceTolerance(snes, -1)); // a change of the active set may raise the residual at first
   PetscCall(SNESSetTolerances(snes, 0, 1e-7, 0, 25, -1));
   PetscCall(SNESGetKSP(snes, &ksp));
-  PetscCall(KSPSetType(ksp, KSPPREONLY));
-  PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCSetType(pc, PCLU));
-  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  PetscCall(SetUpLinearSolver(ksp));
   PetscFunctionReturn(0);
 }
 

@@ -1,3 +1,5 @@
+/// Failures on several ranks.
+///
 /// A cell that turns inside out on one rank makes every rank leave the solve, so that all cut the step together; were
 /// the failure that rank's own, the others would wait in the solver for ever.
 #include "scenes.hpp"
@@ -29,6 +31,31 @@ TEST(failure, OfOneRankCutsTheStepOfAll)
   const Measurement &a = many.rows.back().measurement, &b = one.rows.back().measurement;
   EXPECT_NEAR(a.normal_force, b.normal_force, 1e-7 * b.normal_force);
   EXPECT_NEAR(a.torque, b.torque, 1e-7 * b.torque);
+}
+
+/// A matrix that cannot be factorised fails that solve, not the later ones.
+TEST(failure, OfTheLinearSolverIsForgotten)
+{
+  Problem problem;
+  ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, paper_scene(4)), 0);
+  SNES snes;
+  KSP ksp;
+  KSPConvergedReason reason;
+  VecHandle x;
+  ASSERT_EQ(TSGetSNES(problem.ts, &snes), 0);
+  ASSERT_EQ(SNESGetKSP(snes, &ksp), 0);
+  ASSERT_EQ(VecDuplicate(problem.state.U, x.put()), 0);
+  ASSERT_EQ(MatZeroEntries(problem.jacobian), 0);
+  ASSERT_EQ(MatAssemblyBegin(problem.jacobian, MAT_FINAL_ASSEMBLY), 0);
+  ASSERT_EQ(MatAssemblyEnd(problem.jacobian, MAT_FINAL_ASSEMBLY), 0);
+  ASSERT_EQ(KSPSetOperators(ksp, problem.jacobian, problem.jacobian), 0);
+  ASSERT_EQ(KSPSolve(ksp, problem.state.U, x), 0);
+  ASSERT_EQ(KSPGetConvergedReason(ksp, &reason), 0);
+  EXPECT_LT(reason, 0);
+
+  ASSERT_EQ(problem.ProbeSolver(), 0); // the same with the tangent at rest
+  ASSERT_EQ(KSPGetConvergedReason(ksp, &reason), 0);
+  EXPECT_GT(reason, 0);
 }
 
 } // namespace tribogel::test
