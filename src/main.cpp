@@ -61,6 +61,8 @@ PetscErrorCode Run(const CommandLine &line, int &status)
   Recorder recorder(directory);
   Progress progress(input.scene.schedule, rank == 0);
   recorder.on_row = [&progress](const HistoryRow &row) { progress.show(row); };
+  recorder.on_first_failure = [&progress](const StepFailure &failure) { progress.show(failure); };
+  recorder.on_notice = [&progress](const std::string &text) { progress.show("note: " + text); };
   PetscCall(problem.Run({&recorder}, completed, outcome.reason));
   status = outcome.status = completed ? exit_status::completed : exit_status::cannot_go_on;
   PetscCall(MeasureCost(comm, start, cost));

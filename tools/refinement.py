@@ -52,6 +52,15 @@ class Family:
     def label(self):
         return f"order {self.order} " + ("uniform" if float(self.grading) == 1 else f"grading {self.grading}")
 
+    def nested(self):
+        """Are all meshes the coarsest one, halved? Then they differ in nothing else, not even in whole numbers."""
+        return len(self.elements) > 1 and all(self.halvings(n) is not None for n in self.elements)
+
+    def halvings(self, elements):
+        """How often the coarsest mesh is halved to give this one; None if it is not."""
+        ratio = elements // self.elements[0]
+        return ratio.bit_length() - 1 if ratio & (ratio - 1) == 0 and ratio * self.elements[0] == elements else None
+
 
 @dataclasses.dataclass(frozen=True)
 class Case:
@@ -63,8 +72,10 @@ class Case:
         return f"order{self.family.order}_grading{self.family.grading}_n{self.elements}_tolerance{self.tolerance}"
 
     def options(self, tolerance_option):
+        halvings = self.family.halvings(self.elements) if self.family.nested() else 0
         return ["-element_order", str(self.family.order), "-mesh_grading", self.family.grading,
-                "-elements_radial", str(self.elements), f"-{tolerance_option}", self.tolerance]
+                "-elements_radial", str(self.elements >> halvings), "-mesh_refinements", str(halvings),
+                f"-{tolerance_option}", self.tolerance]
 
 
 @dataclasses.dataclass

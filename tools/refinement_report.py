@@ -65,7 +65,8 @@ def family_table(study, family):
                                                 [r.counts["unknowns"] for r in runs]) if runs else 0
     steps = study.series(family, steps=True)
     notes = [f"{verdict}: {text}." for verdict, text in extrapolate.VERDICTS.items() if verdict in used]
-    notes.append(f"sqrt(unknowns) is linear in the elements within {100 * irregular:.2g} %"
+    notes.append("Nested meshes: the coarsest one with its edges halved." if family.nested() else
+                 f"sqrt(unknowns) is linear in the elements within {100 * irregular:.2g} %"
                  + ("." if irregular < 0.01 else ": NOT nearly self-similar, orders mean little."))
     if steps:
         levels = ", ".join(f"{r.case.tolerance} ({r.counts['steps']} steps)" for r in steps)

@@ -20,6 +20,7 @@ constexpr double band_refinement = 8;
 /// over the width of a zone.
 struct SizeField {
   double smallest, largest, zone;
+  int halves; ///< each edge is cut into so many
 
   /// Number of edges between a fine end and the distance d from it, int_0^d dx / h(x).
   double edges(double d) const
@@ -39,18 +40,19 @@ struct SizeField {
 };
 
 /// The field that puts `elements` edges on a radius whose outer end is fine.
-SizeField size_field(double radius, int elements, double grading, double zone)
+SizeField size_field(double radius, int elements, const MeshParameters &mesh, double zone)
 {
-  const SizeField shape{1 / grading, 1, zone};
+  const SizeField shape{1 / mesh.grading, 1, zone, 1};
   const double unit = shape.edges(radius) / elements;
-  return {unit / grading, unit, zone};
+  return {unit / mesh.grading, unit, zone, 1 << mesh.refinements};
 }
 
-/// Distances from a fine end at 0 to `length`, about edges(length) of them, at least one.
+/// Distances from a fine end at 0 to `length`, about edges(length) of them, at least one; then cut. What is cut keeps
+/// the nodes it had, and the edges go on growing linearly.
 std::vector<double> graded_distances(double length, const SizeField &field)
 {
   const double total = field.edges(length);
-  const auto count = std::max(1L, std::lround(total));
+  const auto count = std::max(1L, std::lround(total)) * field.halves;
   std::vector<double> points;
   for (long k = 0; k < count; ++k)
     points.push_back(field.distance(total * static_cast<double>(k) / static_cast<double>(count)));
@@ -67,7 +69,8 @@ std::vector<double> points_between(double a, double b, bool fine_at_a, bool fine
   } else if (fine_at_b)
     points.push_back(a);
   else
-    for (const double d : graded_distances(b - a, {field.largest, field.largest, field.zone})) points.push_back(a + d);
+    for (const double d : graded_distances(b - a, {field.largest, field.largest, field.zone, field.halves}))
+      points.push_back(a + d);
   if (fine_at_b) {
     std::vector<double> distances = graded_distances(b - points.back(), field);
     for (auto d = distances.rbegin() + 1; d != distances.rend(); ++d) points.push_back(b - *d);
@@ -98,7 +101,8 @@ std::vector<double> radii_under_rim(const Scene &scene, const SizeField &field)
   if (rim == outer) return points_between(0, rim, false, true, field);
   std::vector<double> R = points_between(0, rim, false, true, in_band);
   const double end = std::min(rim + std::max(0.0, travel - scene.initial_gap), 0.5 * (rim + outer));
-  if (end > rim) append(R, points_between(rim, end, false, false, {in_band.smallest, in_band.smallest, field.zone}));
+  if (end > rim)
+    append(R, points_between(rim, end, false, false, {in_band.smallest, in_band.smallest, field.zone, field.halves}));
   const double middle = 0.5 * (end + outer);
   append(R, points_between(end, middle, true, false, in_band));
   append(R, points_between(middle, outer, false, true, field));
@@ -113,12 +117,12 @@ std::vector<MeridianBlock> meridian_blocks(const Scene &scene)
   const Specimen &leading = scene.has_top ? scene.top : scene.bottom;
   const Specimen &bottom = scene.bottom;
   const double zone = zone_over_size * std::min({leading.radius, leading.height, bottom.height});
-  const SizeField s = size_field(leading.radius, mesh.elements_radial, mesh.grading, zone);
+  const SizeField s = size_field(leading.radius, mesh.elements_radial, mesh, zone);
   std::vector<MeridianBlock> blocks;
 
   SizeField bottom_spacing = s;
   if (mesh.bottom_elements_radial > 0)
-    bottom_spacing = size_field(leading.radius, mesh.bottom_elements_radial, mesh.grading, zone);
+    bottom_spacing = size_field(leading.radius, mesh.bottom_elements_radial, mesh, zone);
   MeridianBlock lower{bottom_body,
                       scene.has_top ? radii_under_rim(scene, bottom_spacing)
                                     : points_between(0, bottom.radius, false, true, bottom_spacing),

@@ -31,7 +31,8 @@ struct MeridianBlock {
 /// Meshes of the scene's specimens. Stress is singular where the bonded ends and the contact meet the side walls: from
 /// these lines the edges grow linearly with the distance, from the smallest to `grading` times that, and stay there.
 /// `elements_radial` edges lie on the top (or only) specimen's radius; the rest follows from the same sizes, so meshes
-/// of equal grading differ in scale only (up to whole numbers of edges).
+/// of equal grading differ in scale only (up to whole numbers of edges). `refinements` keeps these numbers and every
+/// node.
 std::vector<MeridianBlock> meridian_blocks(const Scene &scene);
 
 } // namespace tribogel

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <cstdio>
+#include <iomanip>
+#include <sstream>
 
 namespace tribogel
 {
@@ -43,6 +45,21 @@ void Progress::show(const HistoryRow &row)
   std::fflush(stdout);
 }
 
+void Progress::show(const StepFailure &failure) const
+{
+  std::ostringstream text;
+  text << std::setprecision(9) << "t = " << failure.time << std::setprecision(3) << " s: a step of " << failure.step
+       << " s is cut: " << failure.words;
+  show(text.str());
+}
+
+void Progress::show(const std::string &notice) const
+{
+  if (!speaks) return;
+  std::printf("%s%s%s\n", terminal ? "\r" : "", notice.c_str(), terminal ? "                    " : "");
+  std::fflush(stdout);
+}
+
 void Progress::finish(const Recorder &recorder, const SolveCounts &counts, const RunOutcome &outcome,
                       const RunCost &cost, const std::string &directory) const
 {
@@ -59,6 +76,9 @@ void Progress::finish(const Recorder &recorder, const SolveCounts &counts, const
       static_cast<int>(counts.accepted_steps), static_cast<int>(counts.rejected_steps),
       static_cast<int>(counts.failed_solves), static_cast<int>(counts.newton_iterations), cost.cpu_seconds,
       cost.wall_seconds, cost.peak_memory_MB, cost.ranks, cost.ranks == 1 ? "" : "s");
+  for (int k = 0; k < failure_kinds; ++k)
+    if (const int count = counts.failures[static_cast<std::size_t>(k)])
+      std::printf("  failed, step cut: %d x %s\n", count, failure_names[k]);
   std::printf("%s %s\n", outcome.status == 0 ? "complete; files in" : "NOT complete; what there is, in",
               directory.c_str());
 }

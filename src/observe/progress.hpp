@@ -11,6 +11,8 @@ class Progress
 public:
   Progress(const Schedule &schedule, bool speaks);
   void show(const HistoryRow &row);
+  void show(const StepFailure &failure) const;
+  void show(const std::string &notice) const;
   void finish(const Recorder &recorder, const SolveCounts &counts, const RunOutcome &outcome, const RunCost &cost,
               const std::string &directory) const;
 

@@ -85,6 +85,22 @@ PetscErrorCode Recorder::Step(Problem &problem, const StepReport &report)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode Recorder::Failed(Problem &problem, const StepFailure &failure)
+{
+  PetscFunctionBeginUser;
+  if (on_first_failure && problem.counts.failures[static_cast<std::size_t>(failure.kind)] == 1)
+    on_first_failure(failure);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Recorder::Notice(Problem &, const std::string &text)
+{
+  PetscFunctionBeginUser;
+  notices.push_back(text);
+  if (on_notice) on_notice(text);
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode Recorder::Record(Problem &problem, const StepReport &report)
 {
   HistoryRow row{};

@@ -37,11 +37,16 @@ public:
 
   PetscErrorCode Start(Problem &problem) override;
   PetscErrorCode Step(Problem &problem, const StepReport &report) override;
+  PetscErrorCode Failed(Problem &problem, const StepFailure &failure) override;
+  PetscErrorCode Notice(Problem &problem, const std::string &text) override;
 
   std::vector<HistoryRow> rows;
   std::vector<PhaseEnd> phases;
-  std::vector<ProfileRow> last_profile;                ///< at the end of the last completed phase
-  std::function<void(const HistoryRow &)> on_row = {}; ///< e.g. the progress line
+  std::vector<std::string> notices;                               ///< what the problem had to tell
+  std::vector<ProfileRow> last_profile;                           ///< at the end of the last completed phase
+  std::function<void(const HistoryRow &)> on_row = {};            ///< e.g. the progress line
+  std::function<void(const StepFailure &)> on_first_failure = {}; ///< of each kind
+  std::function<void(const std::string &)> on_notice = {};
 
 private:
   PetscErrorCode Record(Problem &problem, const StepReport &report);

@@ -105,6 +105,7 @@ PetscErrorCode WriteSummary(MPI_Comm comm, const std::string &directory, const P
   json["time_s"] = problem.state.time;
   for (const auto &[name, value] : options) json["options"][name] = value;
   json["warnings"] = warnings;
+  json["notices"] = recorder.notices;
   json["phases"] = Json::array();
   for (const PhaseEnd &end : recorder.phases) json["phases"].push_back(describe(end));
   json["balances"] = balances(recorder);
@@ -124,6 +125,8 @@ PetscErrorCode WriteSummary(MPI_Comm comm, const std::string &directory, const P
                     {"linear_iterations", counts.linear_iterations},
                     {"matrix_pattern_rebuilds", counts.pattern_rebuilds},
                     {"longest_step_s", longest}};
+  for (int k = 0; k < failure_kinds; ++k)
+    json["failures"][failure_names[k]] = counts.failures[static_cast<std::size_t>(k)];
   json["cost"] = {{"ranks", cost.ranks},
                   {"cpu_s", cost.cpu_seconds},
                   {"wall_s", cost.wall_seconds},

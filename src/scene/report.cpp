@@ -86,8 +86,8 @@ std::string scene_report(const SceneInput &input)
     text += "  friction: " + describe(scene.friction) + "; initial gap " + number(scene.initial_gap) + " mm\n";
   text += describe(scene.schedule, scene.has_top ? scene.top.radius : scene.bottom.radius);
   text += "  axisymmetric model, elements of order " + std::to_string(scene.mesh.element_order) + ", " +
-          std::to_string(scene.mesh.elements_radial) + " along the radius, grading " + number(scene.mesh.grading) +
-          "\n";
+          std::to_string(scene.mesh.elements_radial << scene.mesh.refinements) + " along the radius, grading " +
+          number(scene.mesh.grading) + "\n";
   text += "  output in " + scene.output.directory + "\n";
   for (const std::string &warning : input.warnings) text += "warning: " + warning + "\n";
   for (const std::string &note : input.notes) text += "note: " + note + "\n";

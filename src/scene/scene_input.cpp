@@ -29,6 +29,17 @@ void read_geometry(const OptionReader &reader, Scene &scene)
   }
 }
 
+/// -friction_speed_range, if it is given.
+std::optional<std::array<double, 2>> read_speed_range(const OptionReader &reader)
+{
+  const Option &range = OptionReader::declared("-friction_speed_range");
+  if (!reader.is_given(range.name)) return {};
+  const std::vector<double> v = reader.reals(range);
+  if (v.size() != 2 || !(0 <= v[0] && v[0] < v[1]))
+    refuse(range.name, reader.text(range), "allowed: " + range.allowed());
+  return std::array<double, 2>{v[0], v[1]};
+}
+
 void read_friction(const OptionReader &reader, SceneInput &input)
 {
   const Option &coefficients = OptionReader::declared("-friction_coefficients");
@@ -50,6 +61,7 @@ void read_friction(const OptionReader &reader, SceneInput &input)
   if (!input.scene.has_top) return;
   if (polynomial) {
     input.scene.friction = PolynomialFriction<double>{b, m, a, floor};
+    input.scene.friction_speeds = read_speed_range(reader);
     if (a == 1 && reader.is_given("-friction_pressure_floor"))
       input.notes.push_back("without effect with -friction_pressure_exponent 1: -friction_pressure_floor");
     if (*std::min_element(b.begin(), b.end()) < 0)
@@ -104,7 +116,6 @@ void read_schedule(const OptionReader &reader, SceneInput &input)
   check_approach(input.scene, approach, approach_text, input);
   input.options.emplace_back("schedule_approach", approach_text);
 
-  reader.choice("-schedule_kind");
   const Option &rates = OptionReader::declared("-schedule_rates"), &twists = OptionReader::declared("-schedule_twists");
   const bool by_twists = reader.is_given(twists.name);
   if (by_twists && reader.is_given(rates.name))
@@ -117,11 +128,30 @@ void read_schedule(const OptionReader &reader, SceneInput &input)
   input.options.emplace_back(turning.name.substr(1), reader.text(turning));
 }
 
+/// A steady state forgets how it was reached, except where friction holds gels at rest.
+void read_schedule_kind(const OptionReader &reader, Scene &scene)
+{
+  if (reader.choice("-schedule_kind") == "transient") return;
+  scene.schedule_kind = ScheduleKind::steady;
+  if (!scene.has_top) return;
+  const bool holds = scene.friction.static_strength(1.0).value > 0;
+  for (std::size_t k = 0; k < scene.schedule.size(); ++k)
+    if (holds && scene.schedule[k].rate == 0)
+      refuse(
+          "-schedule_kind", "steady",
+          "phase " + std::to_string(k + 1) +
+              " is at rest, where static friction depends on the way there; allowed: transient, phases that turn, or "
+              "no coefficient with the exponent 0");
+}
+
 void read_discretisation(const OptionReader &reader, Scene &scene)
 {
   scene.mesh.element_order = reader.integer("-element_order");
   scene.mesh.elements_radial = reader.integer("-elements_radial");
+  scene.mesh.bottom_elements_radial = reader.integer("-bottom_elements_radial");
   scene.mesh.grading = reader.real("-mesh_grading");
+  scene.mesh.refinements = reader.integer("-mesh_refinements");
+  scene.phase_end_tolerance = reader.real("-phase_end_tolerance");
   reader.choice("-contact_integration");
   reader.choice("-maxwell_integrator");
   const double elements = estimated_elements(scene);
@@ -147,6 +177,12 @@ void warn_about_relaxation(const Scene &scene, SceneInput &input)
                                  to_text(branch.deviatoric_viscosity) + "," + to_text(branch.volumetric_viscosity) +
                                  ": relaxation time " + to_text(time) + " s, while the shortest phase takes " +
                                  to_text(shortest) + " s; the branch will not be seen. Is it in MPa s?");
+      if (time > 1e3 * scene.schedule.back().end_time)
+        input.warnings.push_back(branch_names(body, static_cast<int>(k) + 1).viscosities + " = " +
+                                 to_text(branch.deviatoric_viscosity) + "," + to_text(branch.volumetric_viscosity) +
+                                 ": relaxation time " + to_text(time) + " s, while the schedule takes " +
+                                 to_text(scene.schedule.back().end_time) +
+                                 " s; the branch will not relax. Is it in MPa s?");
     }
   };
   if (scene.has_top) check(scene.top, "top");
@@ -186,9 +222,12 @@ void resolve_the_rest(const OptionReader &reader, SceneInput &input)
 double estimated_elements(const Scene &scene)
 {
   const double radius = scene.has_top ? scene.top.radius : scene.bottom.radius;
-  const double edge = radius / scene.mesh.elements_radial;
-  const auto count = [&](const Specimen &s) { return std::ceil(s.radius / edge) * std::ceil(s.height / edge); };
-  return count(scene.bottom) + (scene.has_top ? count(scene.top) : 0);
+  const auto count = [&](const Specimen &s, int elements) {
+    const double edge = radius / (elements << scene.mesh.refinements);
+    return std::ceil(s.radius / edge) * std::ceil(s.height / edge);
+  };
+  const int top = scene.mesh.elements_radial, bottom = scene.mesh.bottom_elements_radial;
+  return count(scene.bottom, bottom > 0 ? bottom : top) + (scene.has_top ? count(scene.top, top) : 0);
 }
 
 SceneInput scene_from_options(const GivenOptions &given)
@@ -206,6 +245,7 @@ SceneInput scene_from_options(const GivenOptions &given)
   scene.bottom.material = read_material(reader, "bottom", input);
   read_friction(reader, input);
   read_schedule(reader, input);
+  read_schedule_kind(reader, scene);
   read_discretisation(reader, scene);
   scene.output.directory = reader.path("-output_directory");
   scene.output.overwrite = reader.flag("-overwrite");

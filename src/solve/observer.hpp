@@ -2,6 +2,8 @@
 /// change the solution, the schedule or the solver.
 #pragma once
 
+#include "solve/failure.hpp"
+
 #include <petscts.h>
 
 namespace tribogel
@@ -21,6 +23,8 @@ public:
   virtual ~Observer() = default;
   virtual PetscErrorCode Start(Problem &problem) = 0; ///< the initial state
   virtual PetscErrorCode Step(Problem &problem, const StepReport &report) = 0;
+  virtual PetscErrorCode Failed(Problem &, const StepFailure &) { return 0; } ///< an attempt; TS cuts the step
+  virtual PetscErrorCode Notice(Problem &, const std::string &) { return 0; } ///< worth telling people
 };
 
 } // namespace tribogel

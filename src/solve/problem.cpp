@@ -104,7 +104,7 @@ PlateFrames Problem::frames(double time, double step) const
   const Phase &now = phase();
   PlateFrames frames;
   frames.top_travel = -now.approach(time);
-  frames.top_travel_rate = -now.approach_rate();
+  frames.top_travel_rate = steady() ? 0 : -now.approach_rate();
   frames.top_rate = now.rate;
   frames.bottom_rate = scene.bottom_plate_rate;
   if (step > 0) frames.step = step;
@@ -143,6 +143,7 @@ PetscErrorCode Problem::LocalState(Vec U, Vec Udot) const
   SetBoundary(state.time, u, rate);
   PetscCall(VecRestoreArray(Udot, &rate));
   PetscCall(VecRestoreArray(U, &u));
+  if (steady()) PetscCall(VecZeroEntries(Udot)); // state.Udot is how the load is raised, not a motion
   PetscFunctionReturn(0);
 }
 
@@ -160,6 +161,7 @@ PetscErrorCode Problem::AddResidual(double time, const double *U, const double *
   if (contact) plate_loads[0] += contact->WallForce(U);
   PetscCall(ShareFailure(PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm))), bulk_failure));
   contact_failure.clear();
+  if (steady()) Udot = nullptr;
   PetscCall(PetscLogEventBegin(events.contact_residual, 0, 0, 0, 0));
   if (contact) PetscCall(contact->AddResidual(frames(time, time - state.time), U, Udot, F, sizes, contact_failure));
   PetscCall(PetscLogEventEnd(events.contact_residual, 0, 0, 0, 0));
@@ -173,6 +175,10 @@ PetscErrorCode Problem::AddJacobian(double time, const double *U, const double *
   PetscCall(bulk->AddJacobian(U, state.history, weights(time), A, bulk_failure));
   PetscCall(PetscLogEventEnd(events.bulk_jacobian, 0, 0, 0, 0));
   PetscCall(PetscLogEventBegin(events.contact_jacobian, 0, 0, 0, 0));
+  if (steady()) {
+    Udot = nullptr;
+    shift = 0;
+  }
   if (contact) PetscCall(contact->AddJacobian(frames(time, time - state.time), U, Udot, shift, A, contact_failure));
   PetscCall(PetscLogEventEnd(events.contact_jacobian, 0, 0, 0, 0));
   PetscFunctionReturn(0);

@@ -5,11 +5,13 @@
 #include "bulk/bulk.hpp"
 #include "contact/contact.hpp"
 #include "mesh/mesh.hpp"
+#include "solve/failure.hpp"
 #include "solve/log_events.hpp"
 #include "solve/observer.hpp"
 #include "solve/state.hpp"
 #include "tribogel/scene/scene.hpp"
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,6 +32,7 @@ inline constexpr const char *group_names[residual_groups] = {"radial force",
 struct SolveCounts {
   PetscInt accepted_steps = 0, rejected_steps = 0, failed_solves = 0;
   PetscInt newton_iterations = 0, linear_iterations = 0, pattern_rebuilds = 0;
+  FailureCounts failures{}; ///< failed solves by kind
 };
 
 /// Where Newton stopped: the largest residual relative to its tolerance.
@@ -68,8 +71,14 @@ public:
   void SetBoundary(double time, double *U, double *Udot) const;
 
   const Phase &phase() const { return scene.schedule[state.phase]; }
-  PlateFrames frames(double time, double step) const;                       ///< at `time`, for a step of that length
-  StepWeights weights(double time) const { return {time - state.time, 0}; } ///< backward Euler
+  PlateFrames frames(double time, double step) const; ///< at `time`, for a step of that length
+  bool steady() const { return scene.schedule_kind == ScheduleKind::steady; }
+
+  /// Backward Euler's; in a steady state the dashpots have had all the time.
+  StepWeights weights(double time) const
+  {
+    return {steady() ? std::numeric_limits<double>::infinity() : time - state.time, 0};
+  }
 
   Scene scene;
   Mesh mesh;
@@ -88,6 +97,8 @@ public:
   BulkFailure bulk_failure;
   std::string contact_failure;
   WorstResidual worst;
+  StepFailure last_failure; ///< words empty: none yet
+  std::string stop_reason;  ///< why an accepted step ends the run; empty: it goes on
 
   PetscErrorCode BuildMatrix();
   PetscErrorCode BeginStep(); ///< from the accepted state
@@ -96,6 +107,10 @@ public:
   PetscErrorCode JudgeResidual(Vec F, bool &converged);
   PetscErrorCode FirstStep(PetscReal &step, PetscReal &unresolved) const; ///< of the phase [s]
   PetscErrorCode SumPlateLoads(PlateLoads &loads) const;
+  PetscErrorCode Diagnose(SNES snes, StepFailure &failure) const; ///< of a solve that diverged
+  PetscErrorCode CheckFriction();                                 ///< in the accepted state; may set stop_reason
+  PetscErrorCode EndPhaseEarly();
+  PetscErrorCode TellFailure(); ///< the observers
 
 private:
   PetscErrorCode LocateWorst(const double *f);
@@ -103,7 +118,14 @@ private:
   PetscErrorCode SetUpTs();
   PetscErrorCode SetUpLinearSolver(KSP ksp);
   PetscErrorCode RunPhase(int k);
+  PetscErrorCode Notify(const std::string &text);
   std::string Explain(TSConvergedReason reason) const;
+
+  /// What has been told and is not told again.
+  struct {
+    bool beyond_speeds = false, not_unique = false;
+    int ended_early = -1; ///< phase
+  } told;
 
   std::vector<Observer *> watching;
   PetscReal given_first_step = 0; ///< `-ts_dt` [s], 0 if not given
@@ -115,5 +137,8 @@ private:
 
 /// Registers the PETSc callbacks on the problem's DM, TS and SNES (callbacks.cpp).
 PetscErrorCode RegisterCallbacks(Problem &problem);
+
+/// TS's hook after each solve (failure.cpp).
+PetscErrorCode PostStage(TS ts, PetscReal time, PetscInt stage, Vec *Y);
 
 } // namespace tribogel

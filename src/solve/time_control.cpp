@@ -18,9 +18,10 @@ namespace
 
 /// Over a phase's duration: nobody looks at what is over sooner.
 constexpr double shortest_of_interest = 1.0 / 500;
-constexpr double smallest_step_fraction = 1e-12;
+/// A run that creeps on with shorter steps than this part of a phase, or of its first step, does not get anywhere.
+constexpr double smallest_of_phase = 1e-9, smallest_of_first = 1e-4;
 /// An estimate with which TS repeats the length of the step: 0.9, its factor of safety, squared.
-constexpr double keeps_the_step = 0.81;
+constexpr double keeps_the_step = 0.81, doubles_the_step = 0.81 / 4;
 
 /// What a free bar of the softer gel would bear at the schedule's largest compression [N]: less than bonded gels bear,
 /// of the same order, and known before anything touches.
@@ -50,9 +51,10 @@ PetscErrorCode EvaluateError(TS ts, NormType, PetscInt *order, PetscReal *error)
   PetscCall(TSGetTimeStep(ts, &step));
   PetscCall(TSGetTolerances(ts, &fraction, nullptr, nullptr, nullptr));
   const State &state = problem->state;
-  if (order) *order = 2; // the power of the step with which the error grows
-  *error = -1;           // unknown
-  if (state.steps_in_phase == 0) PetscFunctionReturn(0);
+  if (order) *order = 2;                            // the power of the step with which the error grows
+  *error = -1;                                      // unknown
+  if (problem->steady()) *error = doubles_the_step; // nothing is integrated: only failures shorten steps
+  if (state.steps_in_phase == 0 || problem->steady()) PetscFunctionReturn(0);
   PlateLoads loads;
   PetscCall(problem->SumPlateLoads(loads));
   // What is only round-off beside the other (the torque before any rotation) is not tracked.
@@ -106,6 +108,7 @@ PetscErrorCode Problem::SetUpTs()
   PetscCall(TSSetMaxStepRejections(ts, 20));
   PetscCall(TSSetErrorIfStepFails(ts, PETSC_FALSE));
   PetscCall(TSSetPreStep(ts, PreStep));
+  PetscCall(TSSetPostStage(ts, PostStage));
   PetscCall(TSGetAdapt(ts, &adapt));
   PetscCall(TSAdaptSetType(adapt, TSADAPTBASIC));
   PetscCall(TSAdaptSetClip(adapt, 0.1, 10));
@@ -187,6 +190,9 @@ PetscErrorCode Problem::AcceptStep(PetscReal time, Vec U)
   PetscCall(PetscLogEventEnd(events.accept_step, 0, 0, 0, 0));
   PetscCall(PetscLogEventBegin(events.observe, 0, 0, 0, 0));
   for (Observer *observer : watching) PetscCall(observer->Step(*this, report));
+  PetscCall(CheckFriction());
+  if (!stop_reason.empty()) PetscCall(TSSetConvergedReason(ts, TS_CONVERGED_USER));
+  PetscCall(EndPhaseEarly());
   PetscCall(PetscLogEventEnd(events.observe, 0, 0, 0, 0));
   PetscFunctionReturn(0);
 }
@@ -241,6 +247,8 @@ PetscErrorCode Problem::FirstStep(PetscReal &step, PetscReal &unresolved) const
 {
   PetscReal fraction;
   PetscFunctionBeginUser;
+  unresolved = step = phase().duration();
+  if (steady()) PetscFunctionReturn(0); // one step, unless it fails
   PetscCall(TSGetTolerances(ts, &fraction, nullptr, nullptr, nullptr));
   double tau = shortest_of_interest * phase().duration();
   for (const Specimen *gel : {&scene.bottom, scene.has_top ? &scene.top : &scene.bottom})
@@ -262,10 +270,11 @@ PetscErrorCode Problem::RunPhase(int k)
   state.steps_in_phase = 0;
   const double duration = phase().duration();
   PetscCall(TSGetAdapt(ts, &adapt));
-  PetscCall(TSAdaptSetStepLimits(adapt, smallest_step_fraction * duration, PETSC_DEFAULT));
+  PetscCall(FirstStep(step, unresolved));
+  PetscCall(
+      TSAdaptSetStepLimits(adapt, std::min(smallest_of_phase * duration, smallest_of_first * step), PETSC_DEFAULT));
   PetscCall(TSSetTime(ts, phase().start_time));
   PetscCall(TSSetMaxTime(ts, phase().end_time));
-  PetscCall(FirstStep(step, unresolved));
   PetscCall(TSSetTimeStep(ts, step));
   PetscCall(TSRestartStep(ts));
   PetscCall(TSSolve(ts, state.U));
@@ -282,11 +291,18 @@ PetscErrorCode Problem::Run(const std::vector<Observer *> &observers, bool &comp
     TSConvergedReason reason;
     PetscCall(RunPhase(k));
     PetscCall(TSGetConvergedReason(ts, &reason));
-    completed = reason > 0 && state.time == phase().end_time;
-    if (!completed) why = Explain(reason);
+    completed = reason > 0 && state.time == phase().end_time && stop_reason.empty();
+    if (!completed) why = stop_reason.empty() ? Explain(reason) : stop_reason;
   }
   PetscCall(TSGetStepRejections(ts, &counts.rejected_steps));
   PetscCall(TSGetSNESFailures(ts, &counts.failed_solves));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Problem::TellFailure()
+{
+  PetscFunctionBeginUser;
+  for (Observer *observer : watching) PetscCall(observer->Failed(*this, last_failure));
   PetscFunctionReturn(0);
 }
 
@@ -298,14 +314,7 @@ std::string Problem::Explain(TSConvergedReason reason) const
     return text.str();
   }
   text << "no step from t = " << state.time << " s (phase " << state.phase + 1 << ") succeeds, however small";
-  if (bulk_failure)
-    text << ": " << describe(bulk_failure);
-  else if (!contact_failure.empty())
-    text << ": " << contact_failure;
-  else if (worst.ratio > 1)
-    text << ": Newton's " << group_names[worst.group] << " stays at " << worst.ratio
-         << " times its tolerance near R = " << worst.X[0] << " mm, Z = " << worst.X[1] << " mm of the "
-         << (worst.body == top_body ? "top" : "bottom") << " gel";
+  if (!last_failure.words.empty()) text << ": " << last_failure.words;
   text << " (" << TSConvergedReasons[reason] << ")";
   return text.str();
 }

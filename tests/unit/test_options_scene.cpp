@@ -124,6 +124,7 @@ TEST(OptionsScene, each_option_reaches_its_place)
                                           {"-element_order", "1"},
                                           {"-elements_radial", "9"},
                                           {"-mesh_grading", "3.5"},
+                                          {"-mesh_refinements", "2"},
                                           {"-output_directory", "here/there"},
                                           {"-overwrite", ""}})
                           .scene;
@@ -152,6 +153,7 @@ TEST(OptionsScene, each_option_reaches_its_place)
   EXPECT_EQ(scene.mesh.element_order, 1);
   EXPECT_EQ(scene.mesh.elements_radial, 9);
   EXPECT_EQ(scene.mesh.grading, 3.5);
+  EXPECT_EQ(scene.mesh.refinements, 2);
   EXPECT_EQ(scene.output.directory, "here/there");
   EXPECT_TRUE(scene.output.overwrite);
 }
@@ -201,12 +203,23 @@ TEST(OptionsScene, refuses_numbers_out_of_range)
   EXPECT_EQ(refusal({{"-top_radius", "12.5"}}), ""); // equal radii may be
 }
 
+TEST(OptionsScene, refuses_steady_states_that_depend_on_the_way_there)
+{
+  const GivenOptions turning{{"-schedule_kind", "steady"},
+                             {"-friction_coefficients", "0.1,8e-4"},
+                             {"-schedule_rates", "0.01,0.01,0.01,0.1,1"}};
+  EXPECT_EQ(scene_from_options(turning).scene.schedule_kind, ScheduleKind::steady);
+  EXPECT_EQ(refusal({{"-schedule_kind", "steady"}}), ""); // rests, but without static friction
+  expect_refused("-schedule_kind", "steady", {{"-friction_coefficients", "0.1,8e-4"}});
+  EXPECT_TRUE(contains(refusal({{"-schedule_kind", "steady"}, {"-friction_coefficients", "0.1,8e-4"}}), "phase 1"));
+}
+
 TEST(OptionsScene, refuses_unknown_words)
 {
   expect_refused("-model", "solid");
   expect_refused("-task", "identify");
   expect_refused("-specimens", "top");
-  expect_refused("-schedule_kind", "steady");
+  expect_refused("-schedule_kind", "periodic");
   expect_refused("-contact_integration", "elements");
   expect_refused("-maxwell_integrator", "bdf2");
   expect_refused("-friction_law", "polynomal");
@@ -275,6 +288,9 @@ TEST(OptionsScene, refuses_absurd_meshes_with_their_number_of_elements)
   EXPECT_EQ(estimated_elements(scene), 5 * 2 + 6 * 3);
   scene.has_top = false;
   EXPECT_EQ(estimated_elements(scene), 5 * 3); // edge 12 / 5
+  scene.mesh.refinements = 3;
+  EXPECT_EQ(estimated_elements(scene), 40 * 20);
+  EXPECT_TRUE(contains(refusal({{"-elements_radial", "330"}, {"-mesh_refinements", "10"}}), "1.07e+11 elements"));
 }
 
 TEST(OptionsScene, further_branches_need_all_four_options)

@@ -163,6 +163,19 @@ class Reading(unittest.TestCase):
         self.assertEqual(refinement.Study([family], results, settings).mesh[key].verdict, "few levels")
 
 
+class Meshes(unittest.TestCase):
+    def options(self, levels, elements):
+        words = refinement.Case(refinement.Family(2, "30", levels), elements, "1e-3").options("ts_atol")
+        return [words[words.index(name) + 1] for name in ("-elements_radial", "-mesh_refinements")]
+
+    def test_doublings_are_nested(self):
+        self.assertEqual([self.options((6, 12, 48), n) for n in (6, 12, 48)], [["6", "0"], ["6", "1"], ["6", "3"]])
+
+    def test_others_are_not(self):
+        for levels in ((8, 12, 16), (8, 16, 24), (8,)):
+            self.assertEqual([self.options(levels, n) for n in levels], [[str(n), "0"] for n in levels])
+
+
 class EndToEnd(unittest.TestCase):
     def study(self, folder, *words):
         return subprocess.run([REPOSITORY / "tools" / "convergence", *words], capture_output=True, text=True, cwd=folder,
@@ -175,7 +188,7 @@ class EndToEnd(unittest.TestCase):
 
     def test_tiny_study(self):
         quick = str(REPOSITORY / "options" / "quick.opts")
-        words = [quick, "--program", PROGRAM, "--family", "1:2:2,3,4", "--family", "2:1:2,3,4", "--tolerances", "4e-2",
+        words = [quick, "--program", PROGRAM, "--family", "1:2:2,3,4", "--family", "2:1:1,2,4", "--tolerances", "4e-2",
                  "--output", "study"]
         schedule = ["--", "-schedule_end_times", "9,30", "-schedule_approach", "0.3,0.3", "-schedule_rates", "0,0.1"]
         with tempfile.TemporaryDirectory() as folder:
@@ -195,6 +208,8 @@ class EndToEnd(unittest.TestCase):
                 for column in ("normal_force_N", "torque_Nmm", "contact_radius_mm", "time_s"):
                     self.assertEqual(float(row[column]), float(ends[row["phase"]][column]))
             table = (out / "convergence.md").read_text(encoding="utf-8")
+            nested = json.loads((out / "runs" / "order2_grading1_n4_tolerance0.04" / "summary.json").read_text())
+            self.assertEqual((nested["options"]["elements_radial"], nested["options"]["mesh_refinements"]), ("1", "2"))
             for heading in ("## Runs", "order 1 grading 2", "order 2 uniform", "## Do the limits agree", "mesh order"):
                 self.assertIn(heading, table)
             self.refuses(folder, *words, *schedule, because="--resume")

@@ -49,6 +49,17 @@ Body errors_of_cap(int order, int elements)
   return {area / (2 * pi * sphere * rise) - 1, volume / exact - 1};
 }
 
+/// Of neighbouring edges.
+double largest_ratio(const std::vector<double> &points)
+{
+  double largest = 1;
+  for (std::size_t k = 1; k + 1 < points.size(); ++k) {
+    const double before = points[k] - points[k - 1], after = points[k + 1] - points[k];
+    largest = std::max({largest, after / before, before / after});
+  }
+  return largest;
+}
+
 } // namespace
 
 TEST(outline, AreaAndVolumeOfACap)
@@ -65,6 +76,23 @@ TEST(outline, AreaAndVolumeOfACap)
     EXPECT_LT(std::abs(error[2].area), order == 1 ? 5e-3 : 1e-4);
     EXPECT_LT(std::abs(error[2].volume), order == 1 ? 5e-3 : 1e-5);
   }
+}
+
+/// A refined mesh has every node of the one before, twice as many edges, and the same growth of their lengths.
+TEST(outline, RefinedMeshesAreNested)
+{
+  Scene scene = paper_scene(9);
+  scene.mesh.grading = 30;
+  const std::vector<MeridianBlock> coarse = meridian_blocks(scene);
+  scene.mesh.refinements = 2;
+  const std::vector<MeridianBlock> fine = meridian_blocks(scene);
+  ASSERT_EQ(fine.size(), coarse.size());
+  for (std::size_t b = 0; b < fine.size(); ++b)
+    for (const auto &[few, many] : {std::pair{&coarse[b].R, &fine[b].R}, std::pair{&coarse[b].Z, &fine[b].Z}}) {
+      ASSERT_EQ(many->size() - 1, 4 * (few->size() - 1));
+      for (std::size_t k = 0; k < few->size(); ++k) EXPECT_NEAR((*many)[4 * k], (*few)[k], 1e-13 * scene.bottom.radius);
+      EXPECT_LT(largest_ratio(*many), std::sqrt(largest_ratio(*few))); // four edges for one: nearly the fourth root
+    }
 }
 
 } // namespace tribogel::test

@@ -6,6 +6,8 @@
 #include "tribogel/material/viscoelastic.hpp"
 #include "tribogel/schedule/schedule.hpp"
 
+#include <array>
+#include <optional>
 #include <string>
 
 namespace tribogel
@@ -42,9 +44,12 @@ struct MeshParameters {
   int element_order = 2;          ///< 1 (Q1/P0) or 2 (Q2/P1)
   int elements_radial = 12;       ///< along the top radius
   double grading = 30;            ///< largest over smallest edge, >= 1
-  int bottom_elements_radial = 0; ///< over the same length on the bottom body; 0: as many. No option: tests set it
-                                  ///< to make the meshes non-matching
+  int refinements = 0;            ///< how often all edges of that mesh are halved
+  int bottom_elements_radial = 0; ///< over the same length on the bottom body; 0: as many
 };
+
+/// What the phases are: motions in time, or one relaxed state for each phase's end, whatever came before.
+enum class ScheduleKind { transient, steady };
 
 struct OutputParameters {
   std::string directory = "tribogel-output";
@@ -59,8 +64,11 @@ struct Scene {
   /// The side walls may touch the plates, and the top gel's wall may roll onto the bottom gel; else they meet nothing.
   bool plate_contact = true;
   PolynomialFriction<double> friction;
+  std::optional<std::array<double, 2>> friction_speeds; ///< for which the law was found, from and to [mm/s]
   Schedule schedule;
-  double bottom_plate_rate = 0; ///< co-rotation of the bottom plate [rad/s]; no option, 0 but in tests
+  ScheduleKind schedule_kind = ScheduleKind::transient;
+  double phase_end_tolerance = 0; ///< see -phase_end_tolerance; 0: off [% of the largest N and T so far]
+  double bottom_plate_rate = 0;   ///< co-rotation of the bottom plate [rad/s]; no option, 0 but in tests
   MeshParameters mesh;
   OutputParameters output;
 

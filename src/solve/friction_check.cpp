@@ -1,0 +1,128 @@
+/// Is the friction law asked what it can answer? Looked at after each accepted step, if the law gives cause.
+#include "solve/problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace tribogel
+{
+
+namespace
+{
+
+struct FrictionCheck {
+  double lowest = 0;    ///< coefficient, if negative
+  double at_radius = 0; ///< of that node, now [mm]
+  double at_speed = 0;  ///< its speed [mm/s]
+  double fastest = 0;   ///< sliding speed [mm/s]
+  double weakening = 0; ///< largest -d tau/d v over what the gels' stiffness holds in a step [1]
+};
+
+/// Tangential stiffness of the two gels in series, sheared as a whole: the softest way in which all nodes can slide
+/// [MPa/mm].
+double shear_stiffness(const Scene &scene)
+{
+  const auto compliance = [](const Specimen &gel) { return gel.height / gel.material.equilibrium.shear_modulus(); };
+  return 1 / (compliance(scene.top) + compliance(scene.bottom));
+}
+
+FrictionCheck look(const Scene &scene, const ContactResults &results, double step)
+{
+  FrictionCheck found;
+  const double holds = step * shear_stiffness(scene);
+  for (const SurfaceResults &surface : results.surfaces)
+    for (std::size_t a = 0; a < surface.nodes.size(); ++a) {
+      const NodeResult &node = surface.nodes[a];
+      if (!node.carries || node.status != ContactStatus::slip || !(node.pressure > 0)) continue;
+      const double v = node.velocity.norm(), mu = scene.friction.coefficient(v, node.pressure);
+      found.fastest = std::max(found.fastest, v);
+      found.weakening = std::max(found.weakening, -scene.friction.sliding(v, node.pressure).d_v / holds);
+      if (mu < found.lowest) {
+        found.lowest = mu;
+        found.at_speed = v;
+        found.at_radius = position(surface.model->reference().slave, surface.state.slave, static_cast<int>(a)).r;
+      }
+    }
+  return found;
+}
+
+} // namespace
+
+PetscErrorCode Problem::CheckFriction()
+{
+  Vec U, Udot;
+  const PetscScalar *u, *rate;
+  ContactResults results;
+  PetscFunctionBeginUser;
+  const bool falls = std::any_of(scene.friction.coefficients.begin(), scene.friction.coefficients.end(),
+                                 [](double b) { return b < 0; });
+  if (!contact || !contact->between_gels() || (!falls && !scene.friction_speeds)) PetscFunctionReturn(0);
+  PetscCall(DMGetLocalVector(mesh.dm, &U));
+  PetscCall(DMGetLocalVector(mesh.dm, &Udot));
+  PetscCall(LocalState(U, Udot));
+  PetscCall(VecGetArrayRead(U, &u));
+  PetscCall(VecGetArrayRead(Udot, &rate));
+  PetscCall(contact->Results(frames(state.time, state.step), u, rate, results));
+  PetscCall(VecRestoreArrayRead(Udot, &rate));
+  PetscCall(VecRestoreArrayRead(U, &u));
+  PetscCall(DMRestoreLocalVector(mesh.dm, &Udot));
+  PetscCall(DMRestoreLocalVector(mesh.dm, &U));
+
+  const FrictionCheck found = look(scene, results, steady() ? 0 : state.step);
+  std::ostringstream text;
+  if (found.lowest < 0) {
+    text << "the friction coefficient is " << found.lowest << " at t = " << state.time << " s, r = " << found.at_radius
+         << " mm, where the gels slide at " << found.at_speed
+         << " mm/s: the law is used beyond the speeds it is good for";
+    stop_reason = text.str();
+  }
+  if (scene.friction_speeds && found.fastest > (*scene.friction_speeds)[1] && !told.beyond_speeds) {
+    told.beyond_speeds = true;
+    text << "t = " << state.time << " s: the gels slide at up to " << found.fastest
+         << " mm/s, faster than -friction_speed_range, which ends at " << (*scene.friction_speeds)[1] << " mm/s";
+    PetscCall(Notify(text.str()));
+  }
+  if (found.weakening > 1 && !told.not_unique) {
+    told.not_unique = true;
+    text.str("");
+    text
+        << "t = " << state.time << " s: friction falls with the speed " << found.weakening
+        << " times faster than the gels' stiffness can hold over a step of " << state.step
+        << " s: the sliding state is not unique and what follows is one of several. Such an interface sticks and slips "
+           "for itself; a law with a rising branch at the speeds in question, lower rates or a stiffer specimen avoid "
+           "it";
+    PetscCall(Notify(text.str()));
+  }
+  PetscFunctionReturn(0);
+}
+
+/// Once N and T would change by less than asked for even if they went on as fast as now, the rest of a phase at
+/// constant approach is one step.
+PetscErrorCode Problem::EndPhaseEarly()
+{
+  PetscFunctionBeginUser;
+  const Phase &now = phase();
+  const double left = now.end_time - state.time;
+  if (!(scene.phase_end_tolerance > 0) || left <= 0 || now.approach_rate() != 0 || state.steps_in_phase < 3)
+    PetscFunctionReturn(0);
+  for (int k = 0; k < 2; ++k)
+    if (std::abs(state.load_rates[k]) * left > scene.phase_end_tolerance / 100 * state.largest[k])
+      PetscFunctionReturn(0);
+  PetscCall(TSSetTimeStep(ts, left));
+  std::ostringstream text;
+  text << "phase " << state.phase + 1 << ": N and T have stopped changing at t = " << state.time << " s; the other "
+       << left << " s are one step";
+  if (told.ended_early != state.phase) PetscCall(Notify(text.str()));
+  told.ended_early = state.phase;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Problem::Notify(const std::string &text)
+{
+  PetscFunctionBeginUser;
+  for (Observer *observer : watching) PetscCall(observer->Notice(*this, text));
+  PetscFunctionReturn(0);
+}
+
+} // namespace tribogel
