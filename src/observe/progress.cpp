@@ -1,5 +1,7 @@
 #include "observe/progress.hpp"
 
+#include "support/exit_status.hpp"
+
 #include <unistd.h>
 
 #include <cmath>
@@ -59,8 +61,11 @@ void Progress::finish(const Recorder &recorder, const SolveCounts &counts, const
       static_cast<int>(counts.accepted_steps), static_cast<int>(counts.rejected_steps),
       static_cast<int>(counts.failed_solves), static_cast<int>(counts.newton_iterations), cost.cpu_seconds,
       cost.wall_seconds, cost.peak_memory_MB, cost.ranks, cost.ranks == 1 ? "" : "s");
-  std::printf("%s %s\n", outcome.status == 0 ? "complete; files in" : "NOT complete; what there is, in",
-              directory.c_str());
+  if (outcome.status == exit_status::stopped_on_request)
+    std::printf("%s\n", outcome.reason.c_str());
+  else
+    std::printf("%s %s\n", outcome.status == 0 ? "complete; files in" : "NOT complete; what there is, in",
+                directory.c_str());
 }
 
 } // namespace tribogel

@@ -1,10 +1,13 @@
 /// Measures each accepted step and writes history.csv (a row a step) and profile.csv (the surfaces at each phase's
-/// end). Rows are flushed as they come, so that nothing is lost when a run dies.
+/// end). Rows are flushed as they come, so that nothing is lost when a run dies. A recorder that has rows when it
+/// starts goes on with the files of the run that they are from.
 #pragma once
 
 #include "observe/energy.hpp"
 #include "observe/measure.hpp"
 
+#include <array>
+#include <cstdint>
 #include <fstream>
 #include <functional>
 
@@ -38,12 +41,21 @@ public:
   PetscErrorCode Start(Problem &problem) override;
   PetscErrorCode Step(Problem &problem, const StepReport &report) override;
 
+  /// First process: the files' rows so far survive the machine's end; `bytes` is updated.
+  void bring_to_disk();
+
+  /// First process: what speaks against going on behind the first `bytes` of the files; empty if nothing does.
+  std::string objection_to_resume() const;
+
+  std::array<std::uintmax_t, 2> bytes{}; ///< of history.csv and profile.csv that belong to `rows` and `phases`
   std::vector<HistoryRow> rows;
   std::vector<PhaseEnd> phases;
-  std::vector<ProfileRow> last_profile;                ///< at the end of the last completed phase
+  std::vector<ProfileRow> last_profile;                ///< at the end of the last completed phase of this program
   std::function<void(const HistoryRow &)> on_row = {}; ///< e.g. the progress line
 
 private:
+  std::array<std::string, 2> paths() const;
+  std::string open(bool goes_on);
   PetscErrorCode Record(Problem &problem, const StepReport &report);
   void write_row(const HistoryRow &row);
   void write_profile(double time, int phase);

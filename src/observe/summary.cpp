@@ -125,6 +125,7 @@ PetscErrorCode WriteSummary(MPI_Comm comm, const std::string &directory, const P
                     {"matrix_pattern_rebuilds", counts.pattern_rebuilds},
                     {"longest_step_s", longest}};
   json["cost"] = {{"ranks", cost.ranks},
+                  {"restarts", cost.restarts},
                   {"cpu_s", cost.cpu_seconds},
                   {"wall_s", cost.wall_seconds},
                   {"peak_memory_MB", cost.peak_memory_MB}};

@@ -181,6 +181,8 @@ PetscErrorCode Problem::AcceptStep(PetscReal time, Vec U)
   PetscCall(SNESGetIterationNumber(snes, &report.newton_iterations));
   PetscCall(SNESGetLinearSolveIterations(snes, &report.linear_iterations));
   report.ends_phase = time == phase().end_time;
+  PetscCall(TSGetTimeStep(ts, &state.next_step));
+  PetscCall(CountFailures());
   ++counts.accepted_steps;
   counts.newton_iterations += report.newton_iterations;
   counts.linear_iterations += report.linear_iterations;
@@ -188,6 +190,7 @@ PetscErrorCode Problem::AcceptStep(PetscReal time, Vec U)
   PetscCall(PetscLogEventBegin(events.observe, 0, 0, 0, 0));
   for (Observer *observer : watching) PetscCall(observer->Step(*this, report));
   PetscCall(PetscLogEventEnd(events.observe, 0, 0, 0, 0));
+  if (!stop_request.empty()) PetscCall(TSSetConvergedReason(ts, TS_CONVERGED_USER));
   PetscFunctionReturn(0);
 }
 
@@ -258,15 +261,16 @@ PetscErrorCode Problem::RunPhase(int k)
   TSAdapt adapt;
   PetscReal step, unresolved;
   PetscFunctionBeginUser;
+  const bool goes_on = state.phase == k && state.time > phase().start_time; // in the midst of the phase
   state.phase = k;
-  state.steps_in_phase = 0;
+  if (!goes_on) state.steps_in_phase = 0;
   const double duration = phase().duration();
   PetscCall(TSGetAdapt(ts, &adapt));
   PetscCall(TSAdaptSetStepLimits(adapt, smallest_step_fraction * duration, PETSC_DEFAULT));
-  PetscCall(TSSetTime(ts, phase().start_time));
+  PetscCall(TSSetTime(ts, goes_on ? state.time : phase().start_time));
   PetscCall(TSSetMaxTime(ts, phase().end_time));
   PetscCall(FirstStep(step, unresolved));
-  PetscCall(TSSetTimeStep(ts, step));
+  PetscCall(TSSetTimeStep(ts, goes_on ? state.next_step : step));
   PetscCall(TSRestartStep(ts));
   PetscCall(TSSolve(ts, state.U));
   PetscFunctionReturn(0);
@@ -276,17 +280,38 @@ PetscErrorCode Problem::Run(const std::vector<Observer *> &observers, bool &comp
 {
   PetscFunctionBeginUser;
   watching = observers;
-  completed = true;
+  stop_request.clear();
+  const auto phases = static_cast<int>(scene.schedule.size());
+  const SolveCounts known = counts;
+  rejected_before = failed_before = 0;
+  PetscCall(CountFailures());
+  rejected_before = known.rejected_steps - counts.rejected_steps;
+  failed_before = known.failed_solves - counts.failed_solves;
+  PetscCall(TSSetStepNumber(ts, counts.accepted_steps));
   for (Observer *observer : watching) PetscCall(observer->Start(*this));
-  for (int k = state.phase; k < static_cast<int>(scene.schedule.size()) && completed; ++k) {
+  bool failed = false;
+  for (int k = state.time < phase().end_time ? state.phase : state.phase + 1;
+       k < phases && !failed && stop_request.empty(); ++k) {
     TSConvergedReason reason;
     PetscCall(RunPhase(k));
     PetscCall(TSGetConvergedReason(ts, &reason));
-    completed = reason > 0 && state.time == phase().end_time;
-    if (!completed) why = Explain(reason);
+    failed = stop_request.empty() && (reason <= 0 || state.time != phase().end_time);
+    why = failed ? Explain(reason) : stop_request;
   }
-  PetscCall(TSGetStepRejections(ts, &counts.rejected_steps));
-  PetscCall(TSGetSNESFailures(ts, &counts.failed_solves));
+  completed = !failed && state.time == scene.schedule.back().end_time;
+  PetscCall(CountFailures());
+  PetscFunctionReturn(0);
+}
+
+/// TS counts since the program's start, a run that goes on has counts from before.
+PetscErrorCode Problem::CountFailures()
+{
+  PetscInt rejected, failed;
+  PetscFunctionBeginUser;
+  PetscCall(TSGetStepRejections(ts, &rejected));
+  PetscCall(TSGetSNESFailures(ts, &failed));
+  counts.rejected_steps = rejected_before + rejected;
+  counts.failed_solves = failed_before + failed;
   PetscFunctionReturn(0);
 }
 

@@ -6,6 +6,7 @@
 #include "tribogel/material/viscoelastic.hpp"
 #include "tribogel/schedule/schedule.hpp"
 
+#include <limits>
 #include <string>
 
 namespace tribogel
@@ -49,6 +50,9 @@ struct MeshParameters {
 struct OutputParameters {
   std::string directory = "tribogel-output";
   bool overwrite = false;
+  bool restart = false;                                       ///< the directory holds a run that goes on
+  double checkpoint_every = 600;                              ///< wall time between checkpoints [s]
+  double wall_time = std::numeric_limits<double>::infinity(); ///< that the program may take [s]
 };
 
 struct Scene {
