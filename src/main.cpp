@@ -43,14 +43,19 @@ PetscErrorCode Run(const CommandLine &line, int &status)
   Problem problem;
   RunOutcome outcome;
   RunCost cost;
-  std::string petsc_help;
+  std::string petsc_help, old_directory;
   bool completed;
   PetscMPIInt rank;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCall(ReadStoredRun(comm, stored));
+  PetscCall(ReadRestart(old_directory));
+  const bool continues = !old_directory.empty();
+  if (continues) {
+    PetscCall(ReadStoredRun(comm, old_directory, stored));
+    PetscCall(AdoptOptions(stored.options));
+  }
   PetscCall(ReadScene(input));
-  if (stored.exists) expect_unchanged(input, stored.options);
+  if (continues) expect_unchanged(input, stored.options);
   PetscCall(problem.SetUp(comm, input.scene));
   PetscCall(problem.ProbeSolver());
   PetscCall(TakePetscHelp(petsc_help));
@@ -62,7 +67,7 @@ PetscErrorCode Run(const CommandLine &line, int &status)
   const std::string &directory = input.scene.output.directory;
   Recorder recorder(directory);
   Checkpoint checkpoint(recorder, input.scene.output, text_of_options(input), start);
-  if (stored.exists) PetscCall(checkpoint.Restore(stored, problem));
+  if (continues) PetscCall(checkpoint.Restore(stored, problem));
   PetscCall(PrepareOutputDirectory(comm, input.scene.output));
   catch_stop_signals();
   print(scene_report(input));

@@ -2,7 +2,6 @@
 
 #include "observe/record_numbers.hpp"
 #include "scene/first_process.hpp"
-#include "scene/stored_options.hpp"
 #include "support/stop_signals.hpp"
 #include "support/version.hpp"
 
@@ -47,12 +46,10 @@ template <class Visitor> PetscErrorCode VisitCost(RunCost &cost, Visitor &visit)
 
 } // namespace
 
-PetscErrorCode ReadStoredRun(MPI_Comm comm, StoredRun &stored)
+PetscErrorCode ReadStoredRun(MPI_Comm comm, const std::string &directory, StoredRun &stored)
 {
   PetscFunctionBeginUser;
-  PetscCall(ReadRestart(stored.directory));
-  stored.exists = !stored.directory.empty();
-  if (!stored.exists) PetscFunctionReturn(0); // a missing value is refused with the other options
+  stored.directory = directory;
   PetscCall(OnFirstProcess(comm, [&] {
     const std::string why = read_data_file(path_in(stored.directory), kind, stored.data);
     if (why.empty()) stored.options = stored.data.texts["options"];
@@ -61,7 +58,6 @@ PetscErrorCode ReadStoredRun(MPI_Comm comm, StoredRun &stored)
                              "; allowed: the directory of a run of this version that has written a checkpoint";
   }));
   PetscCall(Broadcast(comm, stored.options));
-  PetscCall(AdoptOptions(stored.options));
   PetscFunctionReturn(0);
 }
 

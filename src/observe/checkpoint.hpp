@@ -12,15 +12,14 @@
 namespace tribogel
 {
 
-/// What a run left behind: empty unless `-restart` is given.
+/// What a run left behind.
 struct StoredRun {
-  bool exists = false;
   std::string directory, options;
   DataFile data; ///< on the first process
 };
 
-/// Reads the checkpoint that `-restart` names; its options enter PETSc's database. Throws UserError. Collective.
-PetscErrorCode ReadStoredRun(MPI_Comm comm, StoredRun &stored);
+/// Reads the checkpoint of the run in `directory`. Throws UserError if there is none. Collective.
+PetscErrorCode ReadStoredRun(MPI_Comm comm, const std::string &directory, StoredRun &stored);
 
 class Checkpoint : public Observer
 {

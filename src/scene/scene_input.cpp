@@ -166,8 +166,7 @@ void read_output(const OptionReader &reader, SceneInput &input)
   if (!reader.is_given(restart.name)) return;
   const std::string where = reader.path(restart);
   const auto plain = [](const std::string &path) { return std::filesystem::path(path + "/").lexically_normal(); };
-  if (output.overwrite)
-    refuse("-overwrite", reader.text(OptionReader::declared("-overwrite")), "allowed: not together with -restart");
+  if (output.overwrite) refuse("-overwrite", "true", "allowed: not together with -restart = " + where);
   if (reader.is_given(directory.name) && plain(output.directory) != plain(where))
     refuse(directory.name, output.directory, "allowed: with -restart nothing, or its directory " + where);
   output.directory = where;

@@ -8,7 +8,7 @@
 namespace tribogel
 {
 
-/// `-restart` as given, empty if it is not.
+/// The text of `-restart`, empty if it is not given (or without one, which is refused with the other options).
 PetscErrorCode ReadRestart(std::string &directory);
 
 /// All options of a run, as text for its checkpoint.

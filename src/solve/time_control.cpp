@@ -19,6 +19,17 @@ namespace
 /// Over a phase's duration: nobody looks at what is over sooner.
 constexpr double shortest_of_interest = 1.0 / 500;
 constexpr double smallest_step_fraction = 1e-12;
+/// Bits of the error estimate that count. Its last digits are round-off, which differs between numbers of ranks, and so
+/// would the steps: with eight bits they do not, and a step is at most 1/500 off.
+constexpr double estimate_grid = 1 << 8;
+
+double rounded(double estimate)
+{
+  int exponent;
+  const double mantissa = std::frexp(estimate, &exponent);
+  return std::ldexp(std::round(estimate_grid * mantissa) / estimate_grid, exponent);
+}
+
 /// An estimate with which TS repeats the length of the step: 0.9, its factor of safety, squared.
 constexpr double keeps_the_step = 0.81;
 
@@ -67,6 +78,7 @@ PetscErrorCode EvaluateError(TS ts, NormType, PetscInt *order, PetscReal *error)
     if (scale[k] > 0)
       *error = std::max(*error, step * step / (step + state.step) * std::abs(bend) / (fraction * scale[k]));
   }
+  *error = rounded(*error);
   // What is over sooner than anybody looks is not resolved: Euler's rule damps it.
   PetscCall(problem->FirstStep(first, unresolved));
   if (step <= unresolved) *error = std::min(*error, keeps_the_step);
