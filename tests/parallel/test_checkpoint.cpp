@@ -1,5 +1,5 @@
-/// A run that goes on from a checkpoint is the run that was never interrupted: on the same ranks bit for bit, on others
-/// to the round-off of another order of summation. Checkpoints are written by all ranks of PETSC_COMM_WORLD and read by
+/// A run that goes on from a checkpoint is the run that was never interrupted: on one rank bit for bit, on others to the
+/// round-off of another order of summation (MUMPS on several ranks sums in the order in which messages come). Checkpoints are written by all ranks of PETSC_COMM_WORLD and read by
 /// each rank alone, and the other way round.
 #include "observe/checkpoint.hpp"
 #include "probe.hpp"
@@ -15,7 +15,7 @@ namespace tribogel::test
 namespace
 {
 
-constexpr int steps_before = 7; // of 18, in the midst of the second phase
+constexpr double stop_time = 3.4; // in the midst of the second phase [s]
 
 Scene scene_of(int order, bool both)
 {
@@ -27,20 +27,16 @@ Scene scene_of(int order, bool both)
   return scene;
 }
 
-/// Asks for a stop after some steps.
+/// Asks for a stop.
 class Stop : public Observer
 {
 public:
-  explicit Stop(int after) : left(after) {}
   PetscErrorCode Start(Problem &) override { return 0; }
   PetscErrorCode Step(Problem &problem, const StepReport &) override
   {
-    if (--left == 0) problem.stop_request = "enough";
+    if (problem.state.time > stop_time) problem.stop_request = "enough";
     return 0;
   }
-
-private:
-  int left;
 };
 
 /// A directory that the ranks of a communicator share.
@@ -56,8 +52,10 @@ public:
   }
   ~Directory()
   {
+    int rank;
+    MPI_Comm_rank(comm, &rank);
     MPI_Barrier(comm);
-    std::filesystem::remove_all(path);
+    if (rank == 0) std::filesystem::remove_all(path);
   }
   std::filesystem::path path;
 
@@ -73,7 +71,7 @@ struct StoppedRun {
   StoppedRun(MPI_Comm comm, const Scene &scene, const std::string &directory)
       : recorder(directory), checkpoint(recorder, output(directory), "{}", MPI_Wtime())
   {
-    Stop stop(steps_before);
+    Stop stop;
     bool completed = true;
     std::string why;
     EXPECT_EQ(problem.SetUp(comm, scene), 0);
@@ -81,6 +79,7 @@ struct StoppedRun {
     EXPECT_FALSE(completed);
     EXPECT_EQ(why, "enough");
     EXPECT_EQ(problem.state.phase, 1);
+    EXPECT_GE(problem.state.steps_in_phase, 2);
     EXPECT_LT(problem.state.time, problem.phase().end_time);
     EXPECT_EQ(checkpoint.Write(problem), 0);
   }
@@ -179,7 +178,7 @@ protected:
 
 } // namespace
 
-TEST_P(checkpoint_ranks, GoesOnBitForBitOnTheSameRanks)
+TEST_P(checkpoint_ranks, GoesOnAsItWasOnTheSameRanks)
 {
   StoppedRun stopped(PETSC_COMM_WORLD, scene, directory.path / "stopped");
   ContinuedRun continued(PETSC_COMM_WORLD, scene, directory.path / "stopped", directory.path / "goes_on");
@@ -191,7 +190,9 @@ TEST_P(checkpoint_ranks, GoesOnBitForBitOnTheSameRanks)
   }
   EXPECT_EQ(continued.problem.counts.newton_iterations, stopped.problem.counts.newton_iterations);
   continued.finish();
-  expect_same_rows(continued.recorder.rows, whole.rows, R, 1e-13);
+  int size;
+  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  expect_same_rows(continued.recorder.rows, whole.rows, R, size == 1 ? 0 : 1e-12);
   EXPECT_EQ(continued.problem.counts.accepted_steps, uninterrupted.counts.accepted_steps);
   EXPECT_EQ(continued.problem.counts.newton_iterations, uninterrupted.counts.newton_iterations);
   ASSERT_EQ(continued.recorder.phases.size(), whole.phases.size());
