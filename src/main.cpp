@@ -1,11 +1,14 @@
 /// tribogel: two gels in a rheometer. Options in; force, torque and friction out; see -help.
+#include "observe/checkpoint.hpp"
 #include "observe/progress.hpp"
 #include "scene/help.hpp"
 #include "scene/output_directory.hpp"
 #include "scene/petsc_options.hpp"
 #include "scene/report.hpp"
+#include "scene/stored_options.hpp"
 #include "support/exit_status.hpp"
 #include "support/petsc_session.hpp"
+#include "support/stop_signals.hpp"
 #include "support/version.hpp"
 
 #include <cstdio>
@@ -35,16 +38,24 @@ PetscErrorCode Run(const CommandLine &line, int &status)
 {
   const MPI_Comm comm = PETSC_COMM_WORLD;
   const double start = MPI_Wtime();
+  StoredRun stored;
   SceneInput input;
   Problem problem;
   RunOutcome outcome;
   RunCost cost;
-  std::string petsc_help;
+  std::string petsc_help, old_directory;
   bool completed;
   PetscMPIInt rank;
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(ReadRestart(old_directory));
+  const bool continues = !old_directory.empty();
+  if (continues) {
+    PetscCall(ReadStoredRun(comm, old_directory, stored));
+    PetscCall(AdoptOptions(stored.options));
+  }
   PetscCall(ReadScene(input));
+  if (continues) expect_unchanged(input, stored.options);
   PetscCall(problem.SetUp(comm, input.scene));
   PetscCall(problem.ProbeSolver());
   PetscCall(TakePetscHelp(petsc_help));
@@ -54,21 +65,28 @@ PetscErrorCode Run(const CommandLine &line, int &status)
   }
   PetscCall(CheckUnusedOptions(line, petsc_help, input.warnings));
   const std::string &directory = input.scene.output.directory;
+  Recorder recorder(directory);
+  Checkpoint checkpoint(recorder, input.scene.output, text_of_options(input), start);
+  if (continues) PetscCall(checkpoint.Restore(stored, problem));
   PetscCall(PrepareOutputDirectory(comm, input.scene.output));
+  catch_stop_signals();
   print(scene_report(input));
 
   set_error_status(exit_status::cannot_go_on);
-  Recorder recorder(directory);
   Progress progress(input.scene.schedule, rank == 0);
   recorder.on_row = [&progress](const HistoryRow &row) { progress.show(row); };
   recorder.on_first_failure = [&progress](const StepFailure &failure) { progress.show(failure); };
   recorder.on_notice = [&progress](const std::string &text) { progress.show("note: " + text); };
-  PetscCall(problem.Run({&recorder}, completed, outcome.reason));
-  status = outcome.status = completed ? exit_status::completed : exit_status::cannot_go_on;
-  PetscCall(MeasureCost(comm, start, cost));
+  PetscCall(problem.Run({&recorder, &checkpoint}, completed, outcome.reason));
+  const bool stopped = !completed && !problem.stop_request.empty();
+  status = outcome.status = completed ? exit_status::completed
+                            : stopped ? exit_status::stopped_on_request
+                                      : exit_status::cannot_go_on;
+  if (status == exit_status::cannot_go_on) PetscCall(checkpoint.Write(problem));
+  PetscCall(checkpoint.Cost(comm, cost));
   PetscCall(WriteSummary(comm, directory, problem, recorder, outcome, cost, resolved_options(input), input.warnings));
   progress.finish(recorder, problem.counts, outcome, cost, directory);
-  if (!completed) print_error(outcome.reason);
+  if (status == exit_status::cannot_go_on) print_error(outcome.reason);
   PetscFunctionReturn(0);
 }
 

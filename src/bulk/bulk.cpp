@@ -177,6 +177,14 @@ public:
     return history;
   }
 
+  std::vector<std::size_t> HistoryOffsets() const override
+  {
+    std::vector<std::size_t> offsets;
+    for (const CellData &c : cells) offsets.push_back(c.history);
+    offsets.push_back(history_size);
+    return offsets;
+  }
+
   void AddRoundOff(double *magnitude) const override
   {
     for (const CellData &c : cells) {

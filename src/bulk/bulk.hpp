@@ -53,6 +53,9 @@ public:
 
   virtual History InitialHistory() const = 0;
 
+  /// Where each of this rank's cells begins in a History, and the History's size.
+  virtual std::vector<std::size_t> HistoryOffsets() const = 0;
+
   /// Round-off that the forces of a stress-free body carry: machine epsilon times bulk modulus times int |grad N| dV
   /// [N], added to the local array.
   virtual void AddRoundOff(double *magnitude) const = 0;

@@ -133,8 +133,19 @@ PetscErrorCode Mesh::Distribute(const std::vector<MeridianBlock> &blocks)
   PetscCall(PetscPartitionerShellSetPartition(partitioner, size, rank ? nullptr : sizes.data(),
                                               rank ? nullptr : points.data()));
   PetscCall(PetscPartitionerSetFromOptions(partitioner));
-  PetscCall(DMPlexDistribute(dm, 0, nullptr, distributed.put()));
+  PetscSF origin = nullptr; // from each point of this rank to the one it was on the first
+  PetscCall(DMPlexDistribute(dm, 0, &origin, distributed.put()));
   if (distributed) dm = std::move(distributed);
+  PetscInt end, count;
+  const PetscInt *point;
+  const PetscSFNode *original;
+  PetscCall(DMPlexGetChart(dm, nullptr, &end));
+  natural.resize(end);
+  std::iota(natural.begin(), natural.end(), 0);
+  if (!origin) PetscFunctionReturn(0); // one rank: nothing has moved
+  PetscCall(PetscSFGetGraph(origin, nullptr, &count, &point, &original));
+  for (PetscInt k = 0; k < count; ++k) natural[point ? point[k] : k] = original[k].index;
+  PetscCall(PetscSFDestroy(&origin));
   PetscFunctionReturn(0);
 }
 
@@ -180,6 +191,7 @@ PetscErrorCode Mesh::Number(const Scene &scene)
     if (depth > 0 && order == 1) continue;
     Node node{};
     node.point = point;
+    node.natural = natural[point];
     for (int k = 0; k < side_count; ++k) {
       PetscBool inside;
       PetscCall(DMLabelStratumHasPoint(labels[k], 1, point, &inside));
@@ -296,6 +308,7 @@ PetscErrorCode Mesh::Tabulate()
     PetscInt body;
     PetscCall(DMGetLabelValue(dm, "body", c, &body));
     cell.body = static_cast<int>(body);
+    cell.natural = natural[c];
     PetscCall(CellNodes(dm, c, order, node_of_point, cell.node));
     for (int a = 0; a < nodes_per_cell(); ++a) nodes[cell.node[a]].body = cell.body;
     cells.push_back(cell);

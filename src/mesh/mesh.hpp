@@ -14,6 +14,7 @@ namespace tribogel
 /// A place on this rank that carries displacement unknowns.
 struct Node {
   PetscInt point;          ///< in the DMPlex
+  PetscInt natural;        ///< number of that point before the mesh was distributed
   std::array<double, 2> X; ///< reference (R, Z) [mm]
   PetscInt displacement;   ///< offset of its three displacements in a local vector
   PetscInt traction = -1;  ///< offset of its three multiplier components, -1 without
@@ -26,6 +27,7 @@ struct Node {
 
 struct MeshCell {
   int body;
+  PetscInt natural;        ///< number of the cell before the mesh was distributed
   std::array<int, 9> node; ///< indices into Mesh::nodes, lexicographic; order 1 uses the first four
 };
 
@@ -62,6 +64,8 @@ public:
   int nodes_per_cell() const { return (order + 1) * (order + 1); }
 
 private:
+  std::vector<PetscInt> natural; ///< number of each point of this rank before the mesh was distributed
+
   PetscErrorCode Create(MPI_Comm comm, const std::vector<MeridianBlock> &blocks);
   PetscErrorCode Distribute(const std::vector<MeridianBlock> &blocks);
   PetscErrorCode Number(const Scene &scene);

@@ -1,5 +1,7 @@
 #include "observe/progress.hpp"
 
+#include "support/exit_status.hpp"
+
 #include <unistd.h>
 
 #include <cmath>
@@ -79,8 +81,11 @@ void Progress::finish(const Recorder &recorder, const SolveCounts &counts, const
   for (int k = 0; k < failure_kinds; ++k)
     if (const int count = counts.failures[static_cast<std::size_t>(k)])
       std::printf("  failed, step cut: %d x %s\n", count, failure_names[k]);
-  std::printf("%s %s\n", outcome.status == 0 ? "complete; files in" : "NOT complete; what there is, in",
-              directory.c_str());
+  if (outcome.status == exit_status::stopped_on_request)
+    std::printf("%s\n", outcome.reason.c_str());
+  else
+    std::printf("%s %s\n", outcome.status == 0 ? "complete; files in" : "NOT complete; what there is, in",
+                directory.c_str());
 }
 
 } // namespace tribogel

@@ -1,8 +1,12 @@
 #include "observe/recorder.hpp"
 
+#include "scene/first_process.hpp"
+#include "support/data_file.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 namespace tribogel
 {
@@ -65,17 +69,56 @@ double displacement_at(const std::vector<ProfileRow> &profile, double r)
 
 PetscErrorCode Recorder::Start(Problem &problem)
 {
-  PetscMPIInt rank;
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(problem.mesh.dm))), &rank));
-  if (rank == 0 && !directory.empty()) {
-    history.open(directory + "/history.csv");
-    profile.open(directory + "/profile.csv");
-    history << history_header << std::endl;
-    profile << profile_header << std::endl;
-  }
-  PetscCall(Record(problem, {}));
+  const bool goes_on = !rows.empty();
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(problem.mesh.dm)));
+  std::string complaint;
+  if (!directory.empty())
+    PetscCall(OnFirstProcess(
+        comm, [&] { return open(goes_on); }, complaint));
+  PetscCheck(complaint.empty(), comm, PETSC_ERR_FILE_WRITE, "%s", complaint.c_str());
+  if (!goes_on) PetscCall(Record(problem, {}));
   PetscFunctionReturn(0);
+}
+
+std::array<std::string, 2> Recorder::paths() const
+{
+  return {directory + "/history.csv", directory + "/profile.csv"};
+}
+
+/// New files, or those that are there without what was written after the last checkpoint. Returns what went wrong.
+std::string Recorder::open(bool goes_on)
+{
+  for (std::size_t k = 0; k < bytes.size(); ++k) {
+    std::error_code failed;
+    if (goes_on) std::filesystem::resize_file(paths()[k], bytes[k], failed);
+    std::ofstream &file = k == 0 ? history : profile;
+    file.open(paths()[k], goes_on ? std::ios::app : std::ios::trunc);
+    if (!goes_on) file << (k == 0 ? history_header : profile_header) << std::endl;
+    if (failed || !file) return paths()[k] + " cannot be written";
+  }
+  return {};
+}
+
+void Recorder::bring_to_disk()
+{
+  if (!history.is_open()) return;
+  for (std::size_t k = 0; k < bytes.size(); ++k) {
+    std::error_code ignored;
+    tribogel::bring_to_disk(paths()[k]);
+    bytes[k] = std::filesystem::file_size(paths()[k], ignored);
+  }
+}
+
+std::string Recorder::objection_to_resume() const
+{
+  for (std::size_t k = 0; k < bytes.size(); ++k) {
+    std::error_code failed;
+    const std::uintmax_t size = std::filesystem::file_size(paths()[k], failed);
+    if (failed) return paths()[k] + ": " + failed.message();
+    if (size < bytes[k]) return paths()[k] + " is shorter than at the checkpoint";
+  }
+  return {};
 }
 
 PetscErrorCode Recorder::Step(Problem &problem, const StepReport &report)

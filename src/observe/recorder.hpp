@@ -1,10 +1,13 @@
 /// Measures each accepted step and writes history.csv (a row a step) and profile.csv (the surfaces at each phase's
-/// end). Rows are flushed as they come, so that nothing is lost when a run dies.
+/// end). Rows are flushed as they come, so that nothing is lost when a run dies. A recorder that has rows when it
+/// starts goes on with the files of the run that they are from.
 #pragma once
 
 #include "observe/energy.hpp"
 #include "observe/measure.hpp"
 
+#include <array>
+#include <cstdint>
 #include <fstream>
 #include <functional>
 
@@ -40,15 +43,24 @@ public:
   PetscErrorCode Failed(Problem &problem, const StepFailure &failure) override;
   PetscErrorCode Notice(Problem &problem, const std::string &text) override;
 
+  /// First process: the files' rows so far survive the machine's end; `bytes` is updated.
+  void bring_to_disk();
+
+  /// First process: what speaks against going on behind the first `bytes` of the files; empty if nothing does.
+  std::string objection_to_resume() const;
+
+  std::array<std::uintmax_t, 2> bytes{}; ///< of history.csv and profile.csv that belong to `rows` and `phases`
   std::vector<HistoryRow> rows;
   std::vector<PhaseEnd> phases;
-  std::vector<std::string> notices;                               ///< what the problem had to tell
-  std::vector<ProfileRow> last_profile;                           ///< at the end of the last completed phase
-  std::function<void(const HistoryRow &)> on_row = {};            ///< e.g. the progress line
+  std::vector<std::string> notices;                    ///< what the problem had to tell
+  std::vector<ProfileRow> last_profile;                ///< at the end of the last completed phase of this program
+  std::function<void(const HistoryRow &)> on_row = {}; ///< e.g. the progress line
   std::function<void(const StepFailure &)> on_first_failure = {}; ///< of each kind
   std::function<void(const std::string &)> on_notice = {};
 
 private:
+  std::array<std::string, 2> paths() const;
+  std::string open(bool goes_on);
   PetscErrorCode Record(Problem &problem, const StepReport &report);
   void write_row(const HistoryRow &row);
   void write_profile(double time, int phase);

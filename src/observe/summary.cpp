@@ -128,6 +128,7 @@ PetscErrorCode WriteSummary(MPI_Comm comm, const std::string &directory, const P
   for (int k = 0; k < failure_kinds; ++k)
     json["failures"][failure_names[k]] = counts.failures[static_cast<std::size_t>(k)];
   json["cost"] = {{"ranks", cost.ranks},
+                  {"restarts", cost.restarts},
                   {"cpu_s", cost.cpu_seconds},
                   {"wall_s", cost.wall_seconds},
                   {"peak_memory_MB", cost.peak_memory_MB}};

@@ -277,18 +277,46 @@ OptionGroup discretisation_group()
 
 OptionGroup output_group()
 {
-  return {"Output",
-          {{.name = "-output_directory",
-            .kind = OptionKind::path,
-            .fallback = "tribogel-output",
-            .meaning = "made if need be, parents included",
-            .source = "own",
-            .rule = "a directory that holds no run, unless -overwrite"},
-           {.name = "-overwrite",
-            .kind = OptionKind::flag,
-            .fallback = "false",
-            .meaning = "replace the files of a run that is there; other files stay",
-            .source = "own"}}};
+  return {
+      "Output",
+      {{.name = "-output_directory",
+        .kind = OptionKind::path,
+        .fallback = "tribogel-output",
+        .meaning = "made if need be, parents included",
+        .source = "own",
+        .rule = "a directory that holds no run, unless -overwrite",
+        .may_change = true},
+       {.name = "-overwrite",
+        .kind = OptionKind::flag,
+        .fallback = "false",
+        .meaning = "replace the files of a run that is there; other files stay",
+        .source = "own",
+        .rule = "not together with -restart",
+        .may_change = true},
+       {.name = "-checkpoint_every",
+        .kind = OptionKind::real,
+        .fallback = "600",
+        .unit = "s",
+        .meaning = "wall time between checkpoints; 0: after each step. There is one at each phase's end in any case",
+        .source = "own",
+        .range = non_negative,
+        .may_change = true},
+       {.name = "-restart",
+        .kind = OptionKind::path,
+        .fallback = "",
+        .meaning = "continue the run in this directory with its options; those of the solver and of the output may"
+                   " change",
+        .source = "own",
+        .rule = "the directory of a run that has written a checkpoint",
+        .may_change = true},
+       {.name = "-wall_time",
+        .kind = OptionKind::real,
+        .fallback = "",
+        .unit = "s",
+        .meaning = "stop with a checkpoint and status 4 before the program has run for longer than this",
+        .source = "own",
+        .range = positive,
+        .may_change = true}}};
 }
 
 } // namespace

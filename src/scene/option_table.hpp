@@ -33,8 +33,9 @@ struct Option {
   std::string source; ///< of the default: "paper" (fixed by its text), "assumed" (the text is silent), "own"
   Range range{};
   std::vector<std::string> choices{};
-  std::size_t count = 0; ///< numbers in a list; 0: any number, at least one
-  std::string rule{};    ///< what is allowed beyond range and count, in words
+  std::size_t count = 0;   ///< numbers in a list; 0: any number, at least one
+  std::string rule{};      ///< what is allowed beyond range and count, in words
+  bool may_change = false; ///< when a stopped run is continued
 
   std::string allowed() const; ///< what may stand after the name, in words, unit included
 };

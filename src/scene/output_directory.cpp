@@ -1,10 +1,9 @@
 #include "scene/output_directory.hpp"
 
-#include "scene/user_error.hpp"
+#include "scene/first_process.hpp"
 
 #include <cstring>
 #include <filesystem>
-#include <functional>
 #include <system_error>
 
 #include <unistd.h>
@@ -16,21 +15,6 @@ namespace
 {
 
 namespace fs = std::filesystem;
-
-/// Runs `work` on the first process and throws its complaint, if any, on all of them.
-PetscErrorCode OnFirstProcess(MPI_Comm comm, const std::function<std::string()> &work)
-{
-  PetscFunctionBeginUser;
-  PetscMPIInt rank;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  std::string complaint = rank == 0 ? work() : "";
-  int length = static_cast<int>(complaint.size());
-  PetscCallMPI(MPI_Bcast(&length, 1, MPI_INT, 0, comm));
-  complaint.resize(static_cast<std::size_t>(length));
-  PetscCallMPI(MPI_Bcast(complaint.data(), length, MPI_CHAR, 0, comm));
-  if (length > 0) throw UserError{complaint};
-  PetscFunctionReturn(0);
-}
 
 std::string option_text(const OutputParameters &output)
 {
@@ -52,6 +36,7 @@ std::string make_directory(const OutputParameters &output)
   fs::create_directories(output.directory, failed);
   if (!failed)
     for (const char *file : run_files) {
+      if (output.restart && std::string(file) != "summary.json") continue; // that of the run which has stopped
       fs::remove(fs::path(output.directory) / file, failed);
       if (failed) break;
     }
@@ -69,7 +54,7 @@ std::string objection_to(const OutputParameters &output)
     return option_text(output) + existing.string() + " is not a directory" + allowed;
   if (access(existing.c_str(), W_OK | X_OK) != 0)
     return option_text(output) + existing.string() + ": " + std::strerror(errno) + allowed;
-  if (!output.overwrite)
+  if (!output.overwrite && !output.restart)
     for (const char *file : run_files)
       if (fs::exists(fs::path(output.directory) / file, ignored))
         return option_text(output) + "holds a run (" + file + "); allowed: a directory without one, or -overwrite";

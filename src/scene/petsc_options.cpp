@@ -88,22 +88,6 @@ std::string unknown_text(const std::string &name, const std::string &text, const
          (nearest.empty() ? "" : "; the nearest is " + nearest);
 }
 
-/// Options that PETSc reads only when it stops, when a solve ends, or whenever it likes.
-bool is_read_late(const std::string &name)
-{
-  static const char *const exact[] = {"citations", "get_total_flops", "mpidump", "objects_dump", "options_left", "help",
-                                      "h",         "skip_petscrc",    "nox",     "saved_options"};
-  for (const char *word : exact)
-    if (name == word) return true;
-  for (const char *stem :
-       {"options_view", "options_monitor", "malloc", "log_", "memory_", "info", "history", "checkstack"})
-    if (name.starts_with(stem)) return true;
-  for (const char *stem : {"ts_", "snes_", "ksp_", "pc_", "mat_", "vec_", "dm_", "sub_", "mg_", "fieldsplit_"})
-    if (name.starts_with(stem) && (name.find("_view") != std::string::npos || name.ends_with("_converged_reason")))
-      return true;
-  return false;
-}
-
 /// Our names, the ones PETSc reads at its start, and those in its help texts, where each stands as
 /// "  -name: <default> ..." or "  -name <now default> ...".
 std::vector<std::string> all_names(const std::string &help)
@@ -121,6 +105,21 @@ std::vector<std::string> all_names(const std::string &help)
 }
 
 } // namespace
+
+bool is_read_late(const std::string &name)
+{
+  static const char *const exact[] = {"citations", "get_total_flops", "mpidump", "objects_dump", "options_left", "help",
+                                      "h",         "skip_petscrc",    "nox",     "saved_options"};
+  for (const char *word : exact)
+    if (name == word) return true;
+  for (const char *stem :
+       {"options_view", "options_monitor", "malloc", "log_", "memory_", "info", "history", "checkstack"})
+    if (name.starts_with(stem)) return true;
+  for (const char *stem : {"ts_", "snes_", "ksp_", "pc_", "mat_", "vec_", "dm_", "sub_", "mg_", "fieldsplit_"})
+    if (name.starts_with(stem) && (name.find("_view") != std::string::npos || name.ends_with("_converged_reason")))
+      return true;
+  return false;
+}
 
 void check_sources(const CommandLine &line)
 {

@@ -26,6 +26,9 @@ PetscErrorCode ReadScene(SceneInput &input);
 PetscErrorCode CheckUnusedOptions(const CommandLine &line, const std::string &petsc_help,
                                   std::vector<std::string> &warnings);
 
+/// Is this an option (without its dash) that PETSc reads only when it stops, when a solve ends, or whenever it likes?
+bool is_read_late(const std::string &name);
+
 /// Our options as resolved, then PETSC_OPTIONS and the names and texts of all options of PETSc.
 std::vector<std::pair<std::string, std::string>> resolved_options(const SceneInput &input);
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 namespace tribogel
 {
@@ -189,6 +190,26 @@ void warn_about_relaxation(const Scene &scene, SceneInput &input)
   check(scene.bottom, "bottom");
 }
 
+/// A run that goes on does so where it is.
+void read_output(const OptionReader &reader, SceneInput &input)
+{
+  OutputParameters &output = input.scene.output;
+  const Option &directory = OptionReader::declared("-output_directory"), &restart = OptionReader::declared("-restart");
+  output.directory = reader.path(directory);
+  output.overwrite = reader.flag("-overwrite");
+  output.checkpoint_every = reader.real("-checkpoint_every");
+  if (reader.is_given("-wall_time")) output.wall_time = reader.real("-wall_time");
+  if (!reader.is_given(restart.name)) return;
+  const std::string where = reader.path(restart);
+  const auto plain = [](const std::string &path) { return std::filesystem::path(path + "/").lexically_normal(); };
+  if (output.overwrite) refuse("-overwrite", "true", "allowed: not together with -restart = " + where);
+  if (reader.is_given(directory.name) && plain(output.directory) != plain(where))
+    refuse(directory.name, output.directory, "allowed: with -restart nothing, or its directory " + where);
+  output.directory = where;
+  output.restart = true;
+  input.options.emplace_back("output_directory", where);
+}
+
 /// One gel alone: whatever concerns the other one and the contact does nothing.
 void note_idle_without_top(const GivenOptions &given, SceneInput &input)
 {
@@ -234,6 +255,7 @@ SceneInput scene_from_options(const GivenOptions &given)
 {
   const OptionReader reader(given);
   SceneInput input;
+  input.given = given;
   Scene &scene = input.scene;
   reader.choice("-model");
   reader.choice("-task");
@@ -247,8 +269,7 @@ SceneInput scene_from_options(const GivenOptions &given)
   read_schedule(reader, input);
   read_schedule_kind(reader, scene);
   read_discretisation(reader, scene);
-  scene.output.directory = reader.path("-output_directory");
-  scene.output.overwrite = reader.flag("-overwrite");
+  read_output(reader, input);
   warn_about_relaxation(scene, input);
   if (!scene.has_top) note_idle_without_top(given, input);
   resolve_the_rest(reader, input);

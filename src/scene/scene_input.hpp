@@ -18,6 +18,7 @@ using GivenOptions = std::map<std::string, std::string>;
 struct SceneInput {
   Scene scene;
   std::vector<std::pair<std::string, std::string>> options; ///< every option as resolved: name without the dash, text
+  GivenOptions given;                                       ///< as they came in
   std::vector<std::string> warnings;                        ///< runs, but is hardly what was meant
   std::vector<std::string> notes;                           ///< worth knowing, e.g. an option without effect here
 

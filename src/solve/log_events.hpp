@@ -8,7 +8,7 @@ namespace tribogel
 
 struct LogEvents {
   PetscLogEvent mesh = 0, bulk_residual = 0, bulk_jacobian = 0, contact_residual = 0, contact_jacobian = 0;
-  PetscLogEvent accept_step = 0, observe = 0;
+  PetscLogEvent accept_step = 0, observe = 0, checkpoint = 0;
 
   PetscErrorCode Register()
   {
@@ -22,6 +22,7 @@ struct LogEvents {
     PetscCall(PetscLogEventRegister("GelContactJacob", id, &contact_jacobian));
     PetscCall(PetscLogEventRegister("GelAcceptStep", id, &accept_step));
     PetscCall(PetscLogEventRegister("GelObserve", id, &observe));
+    PetscCall(PetscLogEventRegister("GelCheckpoint", id, &checkpoint));
     PetscFunctionReturn(0);
   }
 };

@@ -1,5 +1,5 @@
 /// What watches a run: called on all ranks after each accepted step, never after a rejected one. An observer may not
-/// change the solution, the schedule or the solver.
+/// change the solution, the schedule or the solver; it may ask the run to stop (Problem::stop_request).
 #pragma once
 
 #include "solve/failure.hpp"

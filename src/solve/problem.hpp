@@ -57,7 +57,9 @@ public:
   /// One linear solve with a zero right-hand side: makes PETSc's inner solvers read their options.
   PetscErrorCode ProbeSolver();
 
-  /// Run the schedule. `completed` is false when a step fails at the smallest size; `why` then says where and why.
+  /// Run the schedule from the state on, which may be in the midst of a phase. `completed` is false when a step fails
+  /// at the smallest size, `why` then says where and why; or when an observer has asked for a stop, `why` is its
+  /// request.
   PetscErrorCode Run(const std::vector<Observer *> &observers, bool &completed, std::string &why);
 
   /// Solution and rate in local vectors, prescribed values included. Collective.
@@ -86,6 +88,7 @@ public:
   std::unique_ptr<Contact> contact; ///< null where nothing can touch
   State state;
   SolveCounts counts;
+  std::string stop_request; ///< not empty: why the run is to stop after this step, the same on all ranks
   LogEvents events;
   TsHandle ts;
   MatHandle jacobian;
@@ -119,6 +122,7 @@ private:
   PetscErrorCode SetUpLinearSolver(KSP ksp);
   PetscErrorCode RunPhase(int k);
   PetscErrorCode Notify(const std::string &text);
+  PetscErrorCode CountFailures();
   std::string Explain(TSConvergedReason reason) const;
 
   /// What has been told and is not told again.
@@ -128,10 +132,11 @@ private:
   } told;
 
   std::vector<Observer *> watching;
-  PetscReal given_first_step = 0; ///< `-ts_dt` [s], 0 if not given
-  VecHandle before;               ///< U at the start of the step
-  std::vector<int> plate_nodes;   ///< on the top plate, indices into mesh.nodes
-  PlateLoads plate_loads{};       ///< on this rank's cells in the last evaluation of the residual
+  PetscReal given_first_step = 0;                  ///< `-ts_dt` [s], 0 if not given
+  PetscInt rejected_before = 0, failed_before = 0; ///< counts that TS does not know of
+  VecHandle before;                                ///< U at the start of the step
+  std::vector<int> plate_nodes;                    ///< on the top plate, indices into mesh.nodes
+  PlateLoads plate_loads{};                        ///< on this rank's cells in the last evaluation of the residual
   friend PetscErrorCode PreStep(TS);
 };
 

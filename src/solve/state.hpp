@@ -18,6 +18,7 @@ struct State {
   double time = 0;        ///< of U [s]
   double step = 0;        ///< that led here [s]
   double step_before = 0; ///< the one before [s]
+  double next_step = 0;   ///< that TS will try next, within the phase [s]
   int steps_in_phase = 0;
   VecHandle U, Udot;                           ///< solution and its rate as the residual saw it
   VecHandle Udot_before;                       ///< the rate in the step before
@@ -26,5 +27,28 @@ struct State {
   double stored = 0;                           ///< energy in the bulk of this rank's cells [N mm]
   double dissipated = 0;                       ///< by the dashpots since t = 0, this rank's cells [N mm]
 };
+
+/// Every member once, by name: `visit(name, member)`, or `visit.Sum(name, member)` where the ranks' values add up to
+/// what is meant. A new member is one more line. Collective if the visitor is.
+template <class Visitor> PetscErrorCode VisitState(State &state, Visitor &visit)
+{
+  PetscFunctionBeginUser;
+  PetscCall(visit("phase", state.phase));
+  PetscCall(visit("time", state.time));
+  PetscCall(visit("step", state.step));
+  PetscCall(visit("step_before", state.step_before));
+  PetscCall(visit("next_step", state.next_step));
+  PetscCall(visit("steps_in_phase", state.steps_in_phase));
+  PetscCall(visit("U", state.U));
+  PetscCall(visit("Udot", state.Udot));
+  PetscCall(visit("Udot_before", state.Udot_before));
+  PetscCall(visit("history", state.history));
+  PetscCall(visit("loads", state.loads));
+  PetscCall(visit("load_rates", state.load_rates));
+  PetscCall(visit("largest", state.largest));
+  PetscCall(visit.Sum("stored", state.stored));
+  PetscCall(visit.Sum("dissipated", state.dissipated));
+  PetscFunctionReturn(0);
+}
 
 } // namespace tribogel

@@ -18,8 +18,19 @@ namespace
 
 /// Over a phase's duration: nobody looks at what is over sooner.
 constexpr double shortest_of_interest = 1.0 / 500;
-/// A run that creeps on with shorter steps than this part of a phase, or of its first step, does not get anywhere.
-constexpr double smallest_of_phase = 1e-9, smallest_of_first = 1e-4;
+/// A run that creeps on with shorter steps than this part of a phase's first does not get anywhere.
+constexpr double smallest_of_first = 1e-4;
+/// Bits of the error estimate that count. Its last digits are round-off, which differs between numbers of ranks, and so
+/// would the steps: with eight bits they do not, and a step is at most 1/500 off.
+constexpr double estimate_grid = 1 << 8;
+
+double rounded(double estimate)
+{
+  int exponent;
+  const double mantissa = std::frexp(estimate, &exponent);
+  return std::ldexp(std::round(estimate_grid * mantissa) / estimate_grid, exponent);
+}
+
 /// An estimate with which TS repeats the length of the step: 0.9, its factor of safety, squared.
 constexpr double keeps_the_step = 0.81, doubles_the_step = 0.81 / 4;
 
@@ -69,6 +80,7 @@ PetscErrorCode EvaluateError(TS ts, NormType, PetscInt *order, PetscReal *error)
     if (scale[k] > 0)
       *error = std::max(*error, step * step / (step + state.step) * std::abs(bend) / (fraction * scale[k]));
   }
+  *error = rounded(*error);
   // What is over sooner than anybody looks is not resolved: Euler's rule damps it.
   PetscCall(problem->FirstStep(first, unresolved));
   if (step <= unresolved) *error = std::min(*error, keeps_the_step);
@@ -184,16 +196,18 @@ PetscErrorCode Problem::AcceptStep(PetscReal time, Vec U)
   PetscCall(SNESGetIterationNumber(snes, &report.newton_iterations));
   PetscCall(SNESGetLinearSolveIterations(snes, &report.linear_iterations));
   report.ends_phase = time == phase().end_time;
+  PetscCall(CheckFriction());
+  PetscCall(EndPhaseEarly());
+  PetscCall(TSGetTimeStep(ts, &state.next_step));
+  PetscCall(CountFailures());
   ++counts.accepted_steps;
   counts.newton_iterations += report.newton_iterations;
   counts.linear_iterations += report.linear_iterations;
   PetscCall(PetscLogEventEnd(events.accept_step, 0, 0, 0, 0));
   PetscCall(PetscLogEventBegin(events.observe, 0, 0, 0, 0));
   for (Observer *observer : watching) PetscCall(observer->Step(*this, report));
-  PetscCall(CheckFriction());
-  if (!stop_reason.empty()) PetscCall(TSSetConvergedReason(ts, TS_CONVERGED_USER));
-  PetscCall(EndPhaseEarly());
   PetscCall(PetscLogEventEnd(events.observe, 0, 0, 0, 0));
+  if (!stop_request.empty() || !stop_reason.empty()) PetscCall(TSSetConvergedReason(ts, TS_CONVERGED_USER));
   PetscFunctionReturn(0);
 }
 
@@ -266,16 +280,15 @@ PetscErrorCode Problem::RunPhase(int k)
   TSAdapt adapt;
   PetscReal step, unresolved;
   PetscFunctionBeginUser;
+  const bool goes_on = state.phase == k && state.time > phase().start_time; // in the midst of the phase
   state.phase = k;
-  state.steps_in_phase = 0;
-  const double duration = phase().duration();
+  if (!goes_on) state.steps_in_phase = 0;
   PetscCall(TSGetAdapt(ts, &adapt));
   PetscCall(FirstStep(step, unresolved));
-  PetscCall(
-      TSAdaptSetStepLimits(adapt, std::min(smallest_of_phase * duration, smallest_of_first * step), PETSC_DEFAULT));
-  PetscCall(TSSetTime(ts, phase().start_time));
+  PetscCall(TSAdaptSetStepLimits(adapt, smallest_of_first * step, PETSC_DEFAULT));
+  PetscCall(TSSetTime(ts, goes_on ? state.time : phase().start_time));
   PetscCall(TSSetMaxTime(ts, phase().end_time));
-  PetscCall(TSSetTimeStep(ts, step));
+  PetscCall(TSSetTimeStep(ts, goes_on ? state.next_step : step));
   PetscCall(TSRestartStep(ts));
   PetscCall(TSSolve(ts, state.U));
   PetscFunctionReturn(0);
@@ -285,17 +298,38 @@ PetscErrorCode Problem::Run(const std::vector<Observer *> &observers, bool &comp
 {
   PetscFunctionBeginUser;
   watching = observers;
-  completed = true;
+  stop_request.clear();
+  const auto phases = static_cast<int>(scene.schedule.size());
+  const SolveCounts known = counts;
+  rejected_before = failed_before = 0;
+  PetscCall(CountFailures());
+  rejected_before = known.rejected_steps - counts.rejected_steps;
+  failed_before = known.failed_solves - counts.failed_solves;
+  PetscCall(TSSetStepNumber(ts, counts.accepted_steps));
   for (Observer *observer : watching) PetscCall(observer->Start(*this));
-  for (int k = state.phase; k < static_cast<int>(scene.schedule.size()) && completed; ++k) {
+  bool failed = false;
+  for (int k = state.time < phase().end_time ? state.phase : state.phase + 1;
+       k < phases && !failed && stop_request.empty(); ++k) {
     TSConvergedReason reason;
     PetscCall(RunPhase(k));
     PetscCall(TSGetConvergedReason(ts, &reason));
-    completed = reason > 0 && state.time == phase().end_time && stop_reason.empty();
-    if (!completed) why = stop_reason.empty() ? Explain(reason) : stop_reason;
+    failed = stop_request.empty() && (reason <= 0 || state.time != phase().end_time || !stop_reason.empty());
+    why = !failed ? stop_request : stop_reason.empty() ? Explain(reason) : stop_reason;
   }
-  PetscCall(TSGetStepRejections(ts, &counts.rejected_steps));
-  PetscCall(TSGetSNESFailures(ts, &counts.failed_solves));
+  completed = !failed && state.time == scene.schedule.back().end_time;
+  PetscCall(CountFailures());
+  PetscFunctionReturn(0);
+}
+
+/// TS counts since the program's start, a run that goes on has counts from before.
+PetscErrorCode Problem::CountFailures()
+{
+  PetscInt rejected, failed;
+  PetscFunctionBeginUser;
+  PetscCall(TSGetStepRejections(ts, &rejected));
+  PetscCall(TSGetSNESFailures(ts, &failed));
+  counts.rejected_steps = rejected_before + rejected;
+  counts.failed_solves = failed_before + failed;
   PetscFunctionReturn(0);
 }
 

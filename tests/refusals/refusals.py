@@ -27,7 +27,12 @@ REFUSALS = [
                                                               "nearest is -friction_coefficients"]),
     ("two dashes", ["--top_radius", "9"], ["--top_radius = 9", "nearest is -top_radius"]),
     ("option that is not built", ["-error_estimate", "true"], ["-error_estimate = true", "unknown"]),
-    ("restart, not built", ["-restart", "old"], ["-restart = old", "unknown"]),
+    ("restart of nothing", ["-restart", "old"], ["-restart = old", "does not exist"]),
+    ("restart of a run without checkpoint", ["-restart", "a_run"], ["-restart = a_run", "does not exist"]),
+    ("restart of a text", ["-restart", "a_text"], ["-restart = a_text", "no whole HDF5 file"]),
+    ("restart where nothing is named", ["-restart"], ["-restart", "value missing"]),
+    ("checkpoints back in time", ["-checkpoint_every", "-1"], ["-checkpoint_every = -1", ">= 0"]),
+    ("no wall time", ["-wall_time", "0"], ["-wall_time = 0", "> 0"]),
     ("misspelt solver option", ["-ksp_typ", "gmres"], ["-ksp_typ = gmres", "nearest is -ksp_type"]),
     ("unknown solver", ["-ksp_type", "gmrs"], ["-ksp_type = gmrs"]),
     ("solver number that is none", ["-snes_rtol", "small"], ["-snes_rtol = small"]),
@@ -83,7 +88,7 @@ REFUSALS = [
 # These take different ways through the program; they are repeated on two processes.
 ON_TWO_PROCESSES = {"misspelt option", "misspelt solver option", "unknown solver", "blanks for commas", "NaN",
                     "missing options file", "blanks for commas in a file", "output below a regular file", "existing run",
-                    "stray word"}
+                    "stray word", "restart of a text"}
 
 # name, words, exit status 0 and this on stdout
 RUNS = [
@@ -107,6 +112,8 @@ def prepare(directory):
     (directory / "a_run").mkdir()
     (directory / "a_run" / "history.csv").write_text("an older run\n")
     (directory / "a_run" / "remarks.txt").write_text("mine\n")
+    (directory / "a_text").mkdir()
+    (directory / "a_text" / "checkpoint.h5").write_text("not HDF5\n")
     (directory / "blanks.opts").write_text("# the list below has a blank\n-friction_coefficients 0 8e-4\n")
     (directory / "bare.opts").write_text("top_radius 9\n")
     (directory / "zero.opts").write_text("-top_height 0 # mm\n")

@@ -2,8 +2,10 @@
 #include "scene/material_input.hpp"
 #include "scene/report.hpp"
 #include "scene/scene_input.hpp"
+#include "scene/stored_options.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -126,7 +128,9 @@ TEST(OptionsScene, each_option_reaches_its_place)
                                           {"-mesh_grading", "3.5"},
                                           {"-mesh_refinements", "2"},
                                           {"-output_directory", "here/there"},
-                                          {"-overwrite", ""}})
+                                          {"-overwrite", ""},
+                                          {"-checkpoint_every", "7.5"},
+                                          {"-wall_time", "86000"}})
                           .scene;
   EXPECT_EQ(scene.top.radius, 7);
   EXPECT_EQ(scene.top.height, 3.1);
@@ -156,6 +160,38 @@ TEST(OptionsScene, each_option_reaches_its_place)
   EXPECT_EQ(scene.mesh.refinements, 2);
   EXPECT_EQ(scene.output.directory, "here/there");
   EXPECT_TRUE(scene.output.overwrite);
+  EXPECT_EQ(scene.output.checkpoint_every, 7.5);
+  EXPECT_EQ(scene.output.wall_time, 86000);
+  EXPECT_FALSE(scene.output.restart);
+}
+
+TEST(OptionsScene, a_restart_goes_on_where_the_run_is)
+{
+  const SceneInput input = scene_from_options({{"-restart", "runs/a"}, {"-output_directory", "runs/./a/"}});
+  EXPECT_TRUE(input.scene.output.restart);
+  EXPECT_EQ(input.scene.output.directory, "runs/a");
+  EXPECT_EQ(resolved(input, "output_directory"), "runs/a");
+}
+
+TEST(OptionsScene, a_restart_takes_the_stored_scene_only)
+{
+  nlohmann::json stored;
+  for (const auto &[name, text] : scene_from_options({{"-top_height", "4.10"}, {"-checkpoint_every", "9"}}).options)
+    stored["resolved"]["-" + name] = text;
+  const auto refusal_of = [&](const GivenOptions &given) -> std::string {
+    try {
+      expect_unchanged(scene_from_options(given), stored.dump());
+    } catch (const UserError &error) {
+      return error.text;
+    }
+    return {};
+  };
+  EXPECT_EQ(refusal_of({{"-top_height", "4.1"}, {"-checkpoint_every", "3"}, {"-wall_time", "5"}}), "");
+  EXPECT_NE(refusal_of({{"-top_height", "4.2"}}).find("-top_height = 4.2: the run in tribogel-output has 4.10"),
+            std::string::npos);
+  EXPECT_NE(refusal_of({{"-top_height", "4.1"}, {"-maxwell_integrator", "exponential_euler"}, {"-mesh_grading", "3"}})
+                .find("-mesh_grading = 3"),
+            std::string::npos);
 }
 
 TEST(OptionsScene, twists_are_angles_reached)

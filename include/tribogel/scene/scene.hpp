@@ -7,6 +7,7 @@
 #include "tribogel/schedule/schedule.hpp"
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -54,6 +55,9 @@ enum class ScheduleKind { transient, steady };
 struct OutputParameters {
   std::string directory = "tribogel-output";
   bool overwrite = false;
+  bool restart = false;                                       ///< the directory holds a run that goes on
+  double checkpoint_every = 600;                              ///< wall time between checkpoints [s]
+  double wall_time = std::numeric_limits<double>::infinity(); ///< that the program may take [s]
 };
 
 struct Scene {

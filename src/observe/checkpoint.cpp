@@ -1,0 +1,186 @@
+#include "observe/checkpoint.hpp"
+
+#include "observe/record_numbers.hpp"
+#include "scene/first_process.hpp"
+#include "support/stop_signals.hpp"
+#include "support/version.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <sstream>
+#include <utility>
+
+namespace tribogel
+{
+
+namespace
+{
+
+const std::string kind = std::string("checkpoint of tribogel ") + version;
+
+std::string path_in(const std::string &directory)
+{
+  return directory + "/checkpoint.h5";
+}
+
+template <class Visitor> PetscErrorCode VisitCounts(SolveCounts &counts, Visitor &visit)
+{
+  PetscFunctionBeginUser;
+  PetscCall(visit("accepted_steps", counts.accepted_steps));
+  PetscCall(visit("rejected_steps", counts.rejected_steps));
+  PetscCall(visit("failed_solves", counts.failed_solves));
+  PetscCall(visit("newton_iterations", counts.newton_iterations));
+  PetscCall(visit("linear_iterations", counts.linear_iterations));
+  PetscCall(visit("pattern_rebuilds", counts.pattern_rebuilds));
+  for (int k = 0; k < failure_kinds; ++k)
+    PetscCall(visit(std::string("failures_") + failure_names[k], counts.failures[static_cast<std::size_t>(k)]));
+  PetscFunctionReturn(0);
+}
+
+template <class Visitor> PetscErrorCode VisitCost(RunCost &cost, Visitor &visit)
+{
+  PetscFunctionBeginUser;
+  PetscCall(visit("cpu_seconds", cost.cpu_seconds));
+  PetscCall(visit("wall_seconds", cost.wall_seconds));
+  PetscCall(visit("restarts", cost.restarts));
+  PetscFunctionReturn(0);
+}
+
+} // namespace
+
+PetscErrorCode ReadStoredRun(MPI_Comm comm, const std::string &directory, StoredRun &stored)
+{
+  PetscFunctionBeginUser;
+  stored.directory = directory;
+  PetscCall(OnFirstProcess(comm, [&] {
+    const std::string why = read_data_file(path_in(stored.directory), kind, stored.data);
+    if (why.empty()) stored.options = stored.data.texts["options"];
+    return why.empty() ? why
+                       : "-restart = " + stored.directory + ": " + why +
+                             "; allowed: the directory of a run of this version that has written a checkpoint";
+  }));
+  PetscCall(Broadcast(comm, stored.options));
+  PetscFunctionReturn(0);
+}
+
+Checkpoint::Checkpoint(Recorder &record, OutputParameters where, std::string all_options, double start)
+    : recorder(record), output(std::move(where)), options(std::move(all_options)), wall_start(start)
+{
+}
+
+PetscErrorCode Checkpoint::Orders(const Problem &problem)
+{
+  PetscFunctionBeginUser;
+  if (orders) PetscFunctionReturn(0);
+  PetscCall(orders.emplace().SetUp(problem));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Checkpoint::Restore(const StoredRun &stored, Problem &problem)
+{
+  std::vector<double> rows, phases, bytes;
+  PetscFunctionBeginUser;
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.state.U)));
+  PetscCall(Orders(problem));
+  Loader load(*orders, comm, stored.data);
+  PetscCall(VisitState(problem.state, load));
+  PetscCall(VisitCounts(problem.counts, load));
+  PetscCall(VisitCost(earlier, load));
+  PetscCall(load.Table("rows", rows));
+  PetscCall(load.Table("phases", phases));
+  PetscCall(load.Table("bytes", bytes));
+  const bool whole = rows_of(rows, recorder.rows) && !recorder.rows.empty() && rows_of(phases, recorder.phases) &&
+                     bytes.size() == recorder.bytes.size();
+  PetscCall(OnFirstProcess(comm, [&]() -> std::string {
+    const std::string place = "-restart = " + stored.directory + ": ";
+    if (!load.complaint.empty() || !whole)
+      return place + "the checkpoint's " + (load.complaint.empty() ? "record" : load.complaint) +
+             " does not fit; allowed: a checkpoint of this version and scene";
+    std::copy(bytes.begin(), bytes.end(), recorder.bytes.begin());
+    std::istringstream notices(stored.data.texts.at("notices"));
+    for (std::string line; std::getline(notices, line);) recorder.notices.push_back(line);
+    const std::string lost = recorder.objection_to_resume();
+    return lost.empty() ? lost : place + lost + "; allowed: the files as the run left them";
+  }));
+  ++earlier.restarts;
+  restored = true;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Checkpoint::Start(Problem &problem)
+{
+  PetscFunctionBeginUser;
+  last_step = last_written = MPI_Wtime();
+  if (!restored) PetscCall(Write(problem));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Checkpoint::Step(Problem &problem, const StepReport &report)
+{
+  PetscFunctionBeginUser;
+  const double now = MPI_Wtime();
+  longest_step = std::max(longest_step, now - last_step);
+  last_step = now;
+  // Signals and clocks differ between the ranks.
+  enum { signal, time_over, due, wishes };
+  int wish[wishes] = {caught_stop_signal(), now - wall_start + longest_step > output.wall_time,
+                      now - last_written >= output.checkpoint_every};
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.state.U)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, wish, wishes, MPI_INT, MPI_MAX, comm));
+  const bool over = problem.state.time == problem.scene.schedule.back().end_time;
+  const bool stop = !over && (wish[signal] || wish[time_over]);
+  if (stop || wish[due] || report.ends_phase) PetscCall(Write(problem));
+  if (stop) {
+    char when[64];
+    std::snprintf(when, sizeof when, " at t = %.10g s, to be continued with -restart ", problem.state.time);
+    problem.stop_request = std::string("stopped by ") + (wish[signal] ? stop_signal_name(wish[signal]) : "-wall_time") +
+                           when + output.directory;
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Checkpoint::Write(Problem &problem)
+{
+  DataFile data;
+  RunCost cost;
+  PetscMPIInt rank;
+  PetscFunctionBeginUser;
+  PetscCall(PetscLogEventBegin(problem.events.checkpoint, 0, 0, 0, 0));
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.state.U)));
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(Orders(problem));
+  Saver save(*orders, comm, data);
+  PetscCall(VisitState(problem.state, save));
+  PetscCall(VisitCounts(problem.counts, save));
+  PetscCall(Cost(comm, cost));
+  PetscCall(VisitCost(cost, save));
+  std::string complaint;
+  const auto write = [&] {
+    recorder.bring_to_disk();
+    data.numbers["rows"] = numbers_of(recorder.rows);
+    data.numbers["phases"] = numbers_of(recorder.phases);
+    data.numbers["bytes"].assign(recorder.bytes.begin(), recorder.bytes.end());
+    data.texts["options"] = options;
+    std::string &notices = data.texts["notices"];
+    for (const std::string &line : recorder.notices) notices += line + "\n";
+    return write_data_file(path_in(output.directory), kind, data);
+  };
+  PetscCall(OnFirstProcess(comm, write, complaint)); // PETSc calls this: nothing may be thrown
+  PetscCheck(complaint.empty(), comm, PETSC_ERR_FILE_WRITE, "%s", complaint.c_str());
+  last_written = MPI_Wtime();
+  PetscCall(PetscLogEventEnd(problem.events.checkpoint, 0, 0, 0, 0));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Checkpoint::Cost(MPI_Comm comm, RunCost &cost) const
+{
+  PetscFunctionBeginUser;
+  PetscCall(MeasureCost(comm, wall_start, cost));
+  cost.cpu_seconds += earlier.cpu_seconds;
+  cost.wall_seconds += earlier.wall_seconds;
+  cost.restarts = earlier.restarts;
+  PetscFunctionReturn(0);
+}
+
+} // namespace tribogel

@@ -1,0 +1,52 @@
+/// checkpoint.h5: all that a run needs to go on as if it had never stopped, on any number of ranks. Written at the
+/// start, at each phase's end, every `-checkpoint_every` seconds, and when the run is asked to stop: by a signal, or
+/// because `-wall_time` would be over before the end of the next step.
+#pragma once
+
+#include "observe/checkpoint_exchange.hpp"
+#include "observe/recorder.hpp"
+#include "observe/summary.hpp"
+
+#include <optional>
+
+namespace tribogel
+{
+
+/// What a run left behind.
+struct StoredRun {
+  std::string directory, options;
+  DataFile data; ///< on the first process
+};
+
+/// Reads the checkpoint of the run in `directory`. Throws UserError if there is none. Collective.
+PetscErrorCode ReadStoredRun(MPI_Comm comm, const std::string &directory, StoredRun &stored);
+
+class Checkpoint : public Observer
+{
+public:
+  /// `options` as text_of_options gives them, `wall_start` as MPI_Wtime.
+  Checkpoint(Recorder &recorder, OutputParameters output, std::string options, double wall_start);
+
+  /// Problem, recorder and costs as they were. Throws UserError if the checkpoint does not fit. Collective.
+  PetscErrorCode Restore(const StoredRun &stored, Problem &problem);
+
+  PetscErrorCode Start(Problem &problem) override;
+  PetscErrorCode Step(Problem &problem, const StepReport &report) override;
+  PetscErrorCode Write(Problem &problem);
+
+  /// Of this program and of those it continues. Collective.
+  PetscErrorCode Cost(MPI_Comm comm, RunCost &cost) const;
+
+private:
+  PetscErrorCode Orders(const Problem &problem);
+
+  Recorder &recorder;
+  OutputParameters output;
+  std::string options;
+  double wall_start, last_step = 0, last_written = 0, longest_step = 0; ///< [s]
+  bool restored = false;
+  RunCost earlier;
+  std::optional<NaturalOrders> orders;
+};
+
+} // namespace tribogel

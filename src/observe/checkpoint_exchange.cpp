@@ -1,0 +1,143 @@
+#include "observe/checkpoint_exchange.hpp"
+
+#include "scene/first_process.hpp"
+
+namespace tribogel
+{
+
+namespace
+{
+
+PetscErrorCode RankOf(MPI_Comm comm, bool &first)
+{
+  PetscMPIInt rank;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  first = rank == 0;
+  PetscFunctionReturn(0);
+}
+
+} // namespace
+
+PetscErrorCode NaturalOrders::SetUp(const Problem &problem)
+{
+  std::vector<long long> keys;
+  PetscFunctionBeginUser;
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.state.U)));
+  for (std::size_t k = 0; k < problem.group.size(); ++k) // a node has one unknown of each group
+    keys.push_back(static_cast<long long>(problem.mesh.nodes[problem.node_of_row[k]].natural) * residual_groups +
+                   problem.group[k]);
+  PetscCall(unknowns.SetUp(comm, keys));
+
+  const std::vector<std::size_t> offset = problem.bulk->HistoryOffsets();
+  long long longest = 0;
+  for (std::size_t n = 0; n + 1 < offset.size(); ++n)
+    longest = std::max(longest, static_cast<long long>(offset[n + 1] - offset[n]));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &longest, 1, MPI_LONG_LONG, MPI_MAX, comm));
+  keys.clear();
+  for (std::size_t n = 0; n + 1 < offset.size(); ++n)
+    for (std::size_t k = offset[n]; k < offset[n + 1]; ++k)
+      keys.push_back(problem.mesh.cells[n].natural * longest + static_cast<long long>(k - offset[n]));
+  PetscCall(internal.SetUp(comm, keys));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Saver::operator()(const std::string &name, VecHandle &vector)
+{
+  const PetscScalar *values;
+  std::vector<double> all;
+  PetscFunctionBeginUser;
+  PetscCall(VecGetArrayRead(vector, &values));
+  PetscCall(orders.unknowns.Gather(values, file.numbers[name]));
+  PetscCall(VecRestoreArrayRead(vector, &values));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Saver::operator()(const std::string &name, History &history)
+{
+  PetscFunctionBeginUser;
+  PetscCall(orders.internal.Gather(history.data(), file.numbers[name]));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Saver::operator()(const std::string &name, std::span<double> numbers)
+{
+  PetscFunctionBeginUser;
+  file.numbers[name].assign(numbers.begin(), numbers.end());
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Saver::Sum(const std::string &name, double &share)
+{
+  double sum = share;
+  PetscFunctionBeginUser;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, comm));
+  PetscCall((*this)(name, sum));
+  PetscFunctionReturn(0);
+}
+
+std::vector<double> Loader::Take(const std::string &name, std::size_t size)
+{
+  const auto found = file.numbers.find(name);
+  if (found != file.numbers.end() && found->second.size() == size) return found->second;
+  if (complaint.empty()) complaint = name;
+  return std::vector<double>(size, 0.0);
+}
+
+PetscErrorCode Loader::operator()(const std::string &name, VecHandle &vector)
+{
+  PetscScalar *values;
+  PetscFunctionBeginUser;
+  PetscCall(VecGetArray(vector, &values));
+  PetscCall(orders.unknowns.Scatter(Take(name, orders.unknowns.size()), values));
+  PetscCall(VecRestoreArray(vector, &values));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Loader::operator()(const std::string &name, History &history)
+{
+  PetscFunctionBeginUser;
+  PetscCall(orders.internal.Scatter(Take(name, orders.internal.size()), history.data()));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Loader::operator()(const std::string &name, std::span<double> numbers)
+{
+  bool first;
+  PetscFunctionBeginUser;
+  PetscCall(RankOf(comm, first));
+  if (first) {
+    const std::vector<double> taken = Take(name, numbers.size());
+    std::copy(taken.begin(), taken.end(), numbers.begin());
+  }
+  PetscCallMPI(MPI_Bcast(numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, 0, comm));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Loader::Sum(const std::string &name, double &share)
+{
+  bool first;
+  PetscFunctionBeginUser;
+  PetscCall(RankOf(comm, first));
+  PetscCall((*this)(name, share));
+  if (!first) share = 0;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Loader::Table(const std::string &name, std::vector<double> &numbers)
+{
+  bool first;
+  PetscFunctionBeginUser;
+  PetscCall(RankOf(comm, first));
+  if (first) {
+    const auto found = file.numbers.find(name);
+    if (found != file.numbers.end())
+      numbers = found->second;
+    else if (complaint.empty())
+      complaint = name;
+  }
+  PetscCall(Broadcast(comm, numbers));
+  PetscFunctionReturn(0);
+}
+
+} // namespace tribogel

@@ -1,0 +1,24 @@
+/// The options of a run that is to be continued.
+#pragma once
+
+#include "scene/scene_input.hpp"
+
+#include <petscsys.h>
+
+namespace tribogel
+{
+
+/// The text of `-restart`, empty if it is not given (or without one, which is refused with the other options).
+PetscErrorCode ReadRestart(std::string &directory);
+
+/// All options of a run, as text for its checkpoint.
+std::string text_of_options(const SceneInput &input);
+
+/// The options of that text enter PETSc's database, save those that are given anew and those that belong to the program
+/// that was stopped (where it wrote, what it showed). Throws UserError if the text is none.
+PetscErrorCode AdoptOptions(const std::string &stored);
+
+/// Throws UserError if an option of the scene has another value than in the stored run.
+void expect_unchanged(const SceneInput &input, const std::string &stored);
+
+} // namespace tribogel
