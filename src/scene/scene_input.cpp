@@ -123,7 +123,8 @@ void read_discretisation(const OptionReader &reader, Scene &scene)
   scene.mesh.elements_radial = reader.integer("-elements_radial");
   scene.mesh.grading = reader.real("-mesh_grading");
   reader.choice("-contact_integration");
-  reader.choice("-maxwell_integrator");
+  scene.time.rule = reader.choice("-maxwell_integrator") == "sdirk2" ? TimeRule::sdirk2 : TimeRule::exponential_euler;
+  scene.time.tolerance = reader.real("-time_tolerance");
   const double elements = estimated_elements(scene);
   if (elements > most_elements) {
     char rounded[32];

@@ -19,12 +19,13 @@ struct State {
   double step = 0;        ///< that led here [s]
   double step_before = 0; ///< the one before [s]
   int steps_in_phase = 0;
-  VecHandle U, Udot;                           ///< solution and its rate as the residual saw it
-  VecHandle Udot_before;                       ///< the rate in the step before
-  History history;                             ///< internal variables at `time`
+  VecHandle U, Udot;     ///< solution and its rate as the residual saw it
+  VecHandle Udot_before; ///< Euler's rule: the rate in the step before; SDIRK2: the mean rate of the last step
+  History history;       ///< internal variables at `time`
   PlateLoads loads{}, load_rates{}, largest{}; ///< now, in the last step, and their largest absolute values so far
-  double stored = 0;                           ///< energy in the bulk of this rank's cells [N mm]
-  double dissipated = 0;                       ///< by the dashpots since t = 0, this rank's cells [N mm]
+  double largest_strain = 0; ///< SDIRK2: root of the sum of the squares of C_i^-1 - 1, its largest value so far
+  double stored = 0;         ///< energy in the bulk of this rank's cells [N mm]
+  double dissipated = 0;     ///< by the dashpots since t = 0, this rank's cells [N mm]
 };
 
 } // namespace tribogel

@@ -46,6 +46,17 @@ struct MeshParameters {
                                   ///< to make the meshes non-matching
 };
 
+/// How the steps of time are taken, THEORY 4.1 and 4.2.
+enum class TimeRule {
+  exponential_euler, ///< backward Euler, first order: the paper's
+  sdirk2             ///< two backward Euler solves a step, second order
+};
+
+struct TimeParameters {
+  TimeRule rule = TimeRule::exponential_euler;
+  double tolerance = 0.1; ///< of the errors that the step control keeps, per cent of the largest values so far
+};
+
 struct OutputParameters {
   std::string directory = "tribogel-output";
   bool overwrite = false;
@@ -62,6 +73,7 @@ struct Scene {
   Schedule schedule;
   double bottom_plate_rate = 0; ///< co-rotation of the bottom plate [rad/s]; no option, 0 but in tests
   MeshParameters mesh;
+  TimeParameters time;
   OutputParameters output;
 
   /// The length that makes a twist a displacement: the radius of the top (or only) specimen [mm].
