@@ -177,6 +177,20 @@ public:
     return history;
   }
 
+  History Shares() const override
+  {
+    History shares;
+    for (const CellData &c : cells) {
+      const Viscoelastic<double> &law = material[c.body];
+      double modulus = law.equilibrium.shear_modulus();
+      for (const auto &branch : law.branches) modulus += branch.spring.shear_modulus();
+      for (int q = 0; q < Element::points; ++q)
+        for (const auto &branch : law.branches)
+          shares.insert(shares.end(), law.history_per_branch, branch.spring.shear_modulus() / modulus);
+    }
+    return shares;
+  }
+
   void AddRoundOff(double *magnitude) const override
   {
     for (const CellData &c : cells) {

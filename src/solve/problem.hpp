@@ -93,6 +93,7 @@ public:
   std::unique_ptr<Contact> contact; ///< null where nothing can touch
   State state;
   Stage stage;
+  History rest, shares; ///< internal variables at rest; Bulk::Shares
   SolveCounts counts;
   LogEvents events;
   TsHandle ts;

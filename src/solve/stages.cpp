@@ -97,7 +97,6 @@ PetscErrorCode Problem::SetRates(double step, Vec U)
 /// resolved for its own sake.
 PetscErrorCode Problem::LargestStrain(const History &history, double &strain) const
 {
-  const History rest = bulk->InitialHistory();
   const double floor = expected_compression();
   double squares = 0, least = floor * floor * static_cast<double>(history.size());
   PetscFunctionBeginUser;
@@ -138,7 +137,7 @@ PetscErrorCode EvaluateSecondOrderError(TS ts, NormType, PetscInt *order, PetscR
   double squares = 0;
   for (std::size_t k = 0; k < end.size(); ++k) {
     const double before = state.history[k], part = end[k] - before - (stage.history[k] - before) / (1 - gamma);
-    squares += part * part;
+    squares += problem->shares[k] * problem->shares[k] * part * part;
   }
   PetscCall(Norm(PetscObjectComm(reinterpret_cast<PetscObject>(ts)), squares, strain_bend));
   if (strain > 0) bend = std::max(bend, strain_bend / strain);
