@@ -1,4 +1,4 @@
-/// What SDIRK2 asks of the problem: where its stages start, what they leave, their error. THEORY 4.2, 4.3.
+/// What SDIRK2 asks of the problem: where its stages start, what they leave, their error. THEORY 4.4.
 #include "solve/problem.hpp"
 #include "tribogel/math/sdirk2.hpp"
 
@@ -66,9 +66,9 @@ PetscErrorCode Problem::PredictStage(Vec U) const
     if (state.steps_in_phase >= 1)
       PetscCall(VecAXPBYPCZ(U, stage.length + bend, -bend, 1, state.Udot, state.Udot_before));
   } else if (known) {
-    PetscCall(VecAXPBY(U, 1 / (gamma * gamma), 1 - 1 / (gamma * gamma), stage.U));
-    const double slope = step * (1 - 1 / gamma);
-    PetscCall(VecAXPBYPCZ(U, slope * (1 - lag), slope * lag, 1, state.Udot, state.Udot_before));
+    const double slope = (1 - gamma) * step, bend = 0.5 * (1 + gamma) * step / (lag_sum * state.step) - lag;
+    PetscCall(VecCopy(stage.U, U));
+    PetscCall(VecAXPBYPCZ(U, slope * (1 + bend), -slope * bend, 1, state.Udot, state.Udot_before));
   } else {
     PetscCall(VecAXPBY(U, 1 / gamma, 1 - 1 / gamma, stage.U));
   }
@@ -108,7 +108,7 @@ PetscErrorCode Problem::LargestStrain(const History &history, double &strain) co
   PetscFunctionReturn(0);
 }
 
-/// THEORY (4.8), over `-time_tolerance`.
+/// THEORY (4.8), over `-time_tolerance`: such that this is what TS aims at.
 PetscErrorCode EvaluateSecondOrderError(TS ts, NormType, PetscInt *order, PetscReal *error)
 {
   Problem *problem;
@@ -141,7 +141,7 @@ PetscErrorCode EvaluateSecondOrderError(TS ts, NormType, PetscInt *order, PetscR
   }
   PetscCall(Norm(PetscObjectComm(reinterpret_cast<PetscObject>(ts)), squares, strain_bend));
   if (strain > 0) bend = std::max(bend, strain_bend / strain);
-  *error = sdirk2::error_constant / (gamma * (1 - gamma)) * bend / fraction;
+  *error = keeps_the_step * sdirk2::error_constant / (gamma * (1 - gamma)) * bend / fraction;
   PetscCall(problem->FirstStep(first, unresolved));
   if (step <= unresolved) *error = std::min(*error, keeps_the_step);
   PetscFunctionReturn(0);

@@ -1,4 +1,4 @@
-/// SDIRK2 (THEORY 4.2) as a type of PETSc's TS, which has none for F(t, U, dU/dt) = 0.
+/// SDIRK2 (THEORY 4.4) as a type of PETSc's TS, which has none for F(t, U, dU/dt) = 0.
 #pragma once
 
 #include <petscts.h>
