@@ -75,6 +75,29 @@ PetscErrorCode Problem::PredictStage(Vec U) const
   PetscFunctionReturn(0);
 }
 
+/// Internal variables and energies where the last solve converged. SNES's solution: TS's U is that to round-off, but
+/// this is where the bulk has been evaluated.
+PetscErrorCode Problem::EvaluateEnd(PetscReal time, History &next, CellEnergy &energy)
+{
+  SNES snes;
+  Vec local, solution;
+  PetscScalar *values;
+  PetscFunctionBeginUser;
+  PetscCall(TSGetSNES(ts, &snes));
+  PetscCall(SNESGetSolution(snes, &solution));
+  PetscCall(DMGetLocalVector(mesh.dm, &local));
+  PetscCall(VecZeroEntries(local));
+  PetscCall(DMGlobalToLocal(mesh.dm, solution, INSERT_VALUES, local));
+  PetscCall(VecGetArray(local, &values));
+  SetBoundary(time, values, nullptr);
+  next.resize(state.history.size());
+  const BulkFailure failure = bulk->Advance(values, start(), weights(time), next, energy);
+  PetscCheck(!failure, PETSC_COMM_SELF, PETSC_ERR_PLIB, "a converged step cannot be evaluated again");
+  PetscCall(VecRestoreArray(local, &values));
+  PetscCall(DMRestoreLocalVector(mesh.dm, &local));
+  PetscFunctionReturn(0);
+}
+
 /// Rates as the second stage's residual saw them, and of the whole step.
 PetscErrorCode Problem::SetRates(double step, Vec U)
 {

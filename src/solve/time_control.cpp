@@ -132,29 +132,6 @@ PetscErrorCode Problem::SumPlateLoads(PlateLoads &loads) const
   PetscFunctionReturn(0);
 }
 
-/// Internal variables and energies where the last solve converged. SNES's solution: TS's U is that to round-off, but
-/// this is where the bulk has been evaluated.
-PetscErrorCode Problem::EvaluateEnd(PetscReal time, History &next, CellEnergy &energy)
-{
-  SNES snes;
-  Vec local, solution;
-  PetscScalar *values;
-  PetscFunctionBeginUser;
-  PetscCall(TSGetSNES(ts, &snes));
-  PetscCall(SNESGetSolution(snes, &solution));
-  PetscCall(DMGetLocalVector(mesh.dm, &local));
-  PetscCall(VecZeroEntries(local));
-  PetscCall(DMGlobalToLocal(mesh.dm, solution, INSERT_VALUES, local));
-  PetscCall(VecGetArray(local, &values));
-  SetBoundary(time, values, nullptr);
-  next.resize(state.history.size());
-  const BulkFailure failure = bulk->Advance(values, start(), weights(time), next, energy);
-  PetscCheck(!failure, PETSC_COMM_SELF, PETSC_ERR_PLIB, "a converged step cannot be evaluated again");
-  PetscCall(VecRestoreArray(local, &values));
-  PetscCall(DMRestoreLocalVector(mesh.dm, &local));
-  PetscFunctionReturn(0);
-}
-
 /// Commits an accepted step: rate, internal variables, energies; then tells the observers.
 PetscErrorCode Problem::AcceptStep(PetscReal time, Vec U)
 {
