@@ -1,6 +1,7 @@
-/// SDIRK2's step control: the largest error of N(t) lies within a factor of three of `-time_tolerance`, over two
-/// decades of it, and so does that of T(t) where its rise is resolved; the method restarts at each jump with a short
-/// step. Fails with the estimate a quarter or four times as large, and with the first stage's N left out.
+/// SDIRK2's step control: the largest error of N(t) lies within a factor of three of `-time_tolerance`, over one
+/// and a half decades of it, and so does that of T(t) where its rise is resolved; the method restarts at each jump with
+/// a short step. Fails with an eighth of the estimate or four times it, and if a phase goes on with the last one's
+/// step.
 #include "probe.hpp"
 #include "solver_options.hpp"
 
