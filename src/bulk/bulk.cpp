@@ -185,6 +185,20 @@ public:
     return offsets;
   }
 
+  History Shares() const override
+  {
+    History shares;
+    for (const CellData &c : cells) {
+      const Viscoelastic<double> &law = material[c.body];
+      double modulus = law.equilibrium.shear_modulus();
+      for (const auto &branch : law.branches) modulus += branch.spring.shear_modulus();
+      for (int q = 0; q < Element::points; ++q)
+        for (const auto &branch : law.branches)
+          shares.insert(shares.end(), law.history_per_branch, branch.spring.shear_modulus() / modulus);
+    }
+    return shares;
+  }
+
   void AddRoundOff(double *magnitude) const override
   {
     for (const CellData &c : cells) {
@@ -215,7 +229,7 @@ private:
   /// The last evaluation of a cell and what it was asked.
   struct Known {
     Vector U;
-    double step = -1; ///< none yet
+    StepWeights step{-1}; ///< none yet
     Evaluation evaluation;
   };
 
@@ -229,10 +243,10 @@ private:
     const double *before = history.data() + c.history;
     const auto size = static_cast<std::size_t>(Element::points) * material[c.body].history_size();
     double *copy = history_before.data() + c.history;
-    if (k.step == step.step && k.U == u && std::equal(before, before + size, copy)) return PointStatus::ok;
+    if (k.step == step && k.U == u && std::equal(before, before + size, copy)) return PointStatus::ok;
     const PointStatus status =
         k.evaluation.set(kinematics, c.cell, material[c.body], u, before, step, history_after.data() + c.history, true);
-    k.step = status == PointStatus::ok ? step.step : -1;
+    k.step = status == PointStatus::ok ? step : StepWeights{-1};
     k.U = u;
     std::copy(before, before + size, copy);
     return status;

@@ -21,7 +21,7 @@ PetscErrorCode PlateReaction(Problem &problem, const double *U, Measurement &mea
   PetscCall(DMGetLocalVector(problem.mesh.dm, &forces));
   PetscCall(VecZeroEntries(forces));
   PetscCall(VecGetArray(forces, &f));
-  const StepWeights frozen{0, 0}; // the internal variables are those at the end of the step
+  const StepWeights frozen{0}; // the internal variables are those at the end of the step
   const BulkFailure failure = problem.bulk->AddTopPlateForces(U, problem.state.history, frozen, f);
   PetscCheck(!failure, PETSC_COMM_SELF, PETSC_ERR_PLIB, "a converged state cannot be evaluated");
   for (const Node &node : problem.mesh.nodes) {

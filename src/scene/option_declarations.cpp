@@ -270,9 +270,18 @@ OptionGroup discretisation_group()
            {.name = "-maxwell_integrator",
             .kind = OptionKind::choice,
             .fallback = "exponential_euler",
-            .meaning = "time rule of the Maxwell branches: first order, unconditionally stable",
+            .meaning = "time rule of the Maxwell branches and of the sliding velocity, unconditionally stable:"
+                       " exponential_euler: first order; sdirk2: second order, two solves a step",
             .source = "paper",
-            .choices = {"exponential_euler"}}}};
+            .choices = {"exponential_euler", "sdirk2"}},
+           {.name = "-time_tolerance",
+            .kind = OptionKind::real,
+            .fallback = "0.1",
+            .unit = "%",
+            .meaning = "error in time that the steps follow, per cent of the largest N and T so far:"
+                       " exponential_euler: of a step; sdirk2: of N(t) and T(t), and of the internal variables",
+            .source = "own",
+            .range = positive}}};
 }
 
 OptionGroup output_group()

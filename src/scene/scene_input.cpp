@@ -154,7 +154,10 @@ void read_discretisation(const OptionReader &reader, Scene &scene)
   scene.mesh.refinements = reader.integer("-mesh_refinements");
   scene.phase_end_tolerance = reader.real("-phase_end_tolerance");
   reader.choice("-contact_integration");
-  reader.choice("-maxwell_integrator");
+  const bool second_order = reader.choice("-maxwell_integrator") == "sdirk2";
+  const bool steady = scene.schedule_kind == ScheduleKind::steady; // nothing to integrate: one solve a step
+  scene.time.rule = second_order && !steady ? TimeRule::sdirk2 : TimeRule::exponential_euler;
+  scene.time.tolerance = reader.real("-time_tolerance");
   const double elements = estimated_elements(scene);
   if (elements > most_elements) {
     char rounded[32];

@@ -85,6 +85,10 @@ PetscErrorCode Predict(SNES, Vec U, void *context)
   PetscReal step;
   PetscFunctionBeginUser;
   if (problem.contact) problem.contact->BeginAttempt();
+  if (problem.scene.time.rule == TimeRule::sdirk2) {
+    PetscCall(problem.PredictStage(U));
+    PetscFunctionReturn(0);
+  }
   PetscCall(TSGetTimeStep(problem.ts, &step));
   PetscCall(VecCopy(state.U, U));
   if (state.steps_in_phase >= 1) PetscCall(VecAXPY(U, step, state.Udot));

@@ -1,5 +1,8 @@
 #include "solve/problem.hpp"
 
+#include "solve/two_stage_ts.hpp"
+#include "tribogel/math/sdirk2.hpp"
+
 #include <algorithm>
 
 namespace tribogel
@@ -33,13 +36,14 @@ PetscErrorCode Problem::SetUp(MPI_Comm comm, const Scene &given, const std::vect
 
 PetscErrorCode Problem::SetFromOptions()
 {
-  PetscBool given, is_euler;
+  PetscBool given, agrees;
   PetscFunctionBeginUser;
   PetscCall(TSSetFromOptions(ts));
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<TS>(ts)));
-  PetscCall(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(static_cast<TS>(ts)), TSBEULER, &is_euler));
-  PetscCheck(is_euler, comm, PETSC_ERR_USER_INPUT,
-             "-ts_type: the internal variables and the sliding velocity follow backward Euler; allowed: beuler");
+  const char *type = scene.time.rule == TimeRule::sdirk2 ? two_stage_ts : TSBEULER;
+  PetscCall(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(static_cast<TS>(ts)), type, &agrees));
+  PetscCheck(agrees, comm, PETSC_ERR_USER_INPUT,
+             "-ts_type: the internal variables and the sliding velocity follow -maxwell_integrator; allowed: %s", type);
   PetscCall(PetscOptionsHasName(nullptr, nullptr, "-ts_max_time", &given));
   PetscCheck(!given, comm, PETSC_ERR_USER_INPUT, "-ts_max_time: the schedule ends the run; use -schedule_end_times");
   PetscCall(PetscOptionsGetReal(nullptr, nullptr, "-ts_dt", &given_first_step, &given));
@@ -60,12 +64,14 @@ PetscErrorCode Problem::SetUpFields()
   PetscCall(VecDuplicate(state.U, state.Udot.put()));
   PetscCall(VecDuplicate(state.U, state.Udot_before.put()));
   PetscCall(VecDuplicate(state.U, before.put()));
+  PetscCall(VecDuplicate(state.U, stage.U.put()));
   PetscCall(VecDuplicate(state.U, magnitude.put()));
   PetscCall(VecDuplicate(state.U, round_off.put()));
   for (Vec v : {static_cast<Vec>(state.U), static_cast<Vec>(state.Udot), static_cast<Vec>(state.Udot_before),
                 static_cast<Vec>(before)})
     PetscCall(VecZeroEntries(v));
-  state.history = bulk->InitialHistory();
+  state.history = rest = bulk->InitialHistory();
+  shares = bulk->Shares();
 
   PetscCall(DMGetLocalToGlobalMapping(mesh.dm, &mapping));
   PetscCall(ISLocalToGlobalMappingGetIndices(mapping, &to_global));
@@ -97,6 +103,13 @@ PetscErrorCode Problem::SetUpFields()
   PetscCall(DMLocalToGlobal(mesh.dm, local, ADD_VALUES, round_off));
   PetscCall(DMRestoreLocalVector(mesh.dm, &local));
   PetscFunctionReturn(0);
+}
+
+StepWeights Problem::weights(double time) const
+{
+  if (steady()) return {std::numeric_limits<double>::infinity(), 1}; // the dashpots have had all the time
+  const bool goes_on = scene.time.rule == TimeRule::sdirk2 && stage.index == 0;
+  return {solve_length(time), goes_on ? sdirk2::reach : 1};
 }
 
 PlateFrames Problem::frames(double time, double step) const
@@ -151,7 +164,7 @@ PetscErrorCode Problem::AddResidual(double time, const double *U, const double *
 {
   PetscFunctionBeginUser;
   PetscCall(PetscLogEventBegin(events.bulk_residual, 0, 0, 0, 0));
-  bulk_failure = bulk->AddResidual(U, state.history, weights(time), F, sizes);
+  bulk_failure = bulk->AddResidual(U, start(), weights(time), F, sizes);
   PetscCall(PetscLogEventEnd(events.bulk_residual, 0, 0, 0, 0));
   plate_loads = {};
   for (int n : plate_nodes) {
@@ -163,7 +176,7 @@ PetscErrorCode Problem::AddResidual(double time, const double *U, const double *
   contact_failure.clear();
   if (steady()) Udot = nullptr;
   PetscCall(PetscLogEventBegin(events.contact_residual, 0, 0, 0, 0));
-  if (contact) PetscCall(contact->AddResidual(frames(time, time - state.time), U, Udot, F, sizes, contact_failure));
+  if (contact) PetscCall(contact->AddResidual(frames(time, solve_length(time)), U, Udot, F, sizes, contact_failure));
   PetscCall(PetscLogEventEnd(events.contact_residual, 0, 0, 0, 0));
   PetscFunctionReturn(0);
 }
@@ -172,14 +185,14 @@ PetscErrorCode Problem::AddJacobian(double time, const double *U, const double *
 {
   PetscFunctionBeginUser;
   PetscCall(PetscLogEventBegin(events.bulk_jacobian, 0, 0, 0, 0));
-  PetscCall(bulk->AddJacobian(U, state.history, weights(time), A, bulk_failure));
+  PetscCall(bulk->AddJacobian(U, start(), weights(time), A, bulk_failure));
   PetscCall(PetscLogEventEnd(events.bulk_jacobian, 0, 0, 0, 0));
   PetscCall(PetscLogEventBegin(events.contact_jacobian, 0, 0, 0, 0));
   if (steady()) {
     Udot = nullptr;
     shift = 0;
   }
-  if (contact) PetscCall(contact->AddJacobian(frames(time, time - state.time), U, Udot, shift, A, contact_failure));
+  if (contact) PetscCall(contact->AddJacobian(frames(time, solve_length(time)), U, Udot, shift, A, contact_failure));
   PetscCall(PetscLogEventEnd(events.contact_jacobian, 0, 0, 0, 0));
   PetscFunctionReturn(0);
 }

@@ -43,6 +43,18 @@ struct WorstResidual {
   int body = 0;
 };
 
+/// The solve at hand: Euler's rule has one a step, SDIRK2 two. Nothing of it outlives the step.
+struct Stage {
+  int index = 0;         ///< of what follows, the first (0) has nothing and leaves it to the second (1)
+  double time = 0;       ///< of the stage's end [s]
+  double length = 0;     ///< [s]
+  VecHandle U;           ///< where the first stage ended
+  History history;       ///< internal variables where the second starts
+  PlateLoads loads{};    ///< at the end of the first
+  double dissipated = 0; ///< the first stage's part of the step's, this rank's cells [N mm]
+  PetscInt newton_iterations = 0, linear_iterations = 0; ///< of the first
+};
+
 class Problem
 {
 public:
@@ -76,17 +88,18 @@ public:
   PlateFrames frames(double time, double step) const; ///< at `time`, for a step of that length
   bool steady() const { return scene.schedule_kind == ScheduleKind::steady; }
 
-  /// Backward Euler's; in a steady state the dashpots have had all the time.
-  StepWeights weights(double time) const
-  {
-    return {steady() ? std::numeric_limits<double>::infinity() : time - state.time, 0};
-  }
+  /// Length of the backward Euler solve at hand, that ends at `time`, and what it tells the materials.
+  double solve_length(double time) const { return stage.index == 0 ? time - state.time : stage.length; }
+  StepWeights weights(double time) const;
+  const History &start() const { return stage.index == 0 ? state.history : stage.history; } ///< internal variables
 
   Scene scene;
   Mesh mesh;
   std::unique_ptr<Bulk> bulk;
   std::unique_ptr<Contact> contact; ///< null where nothing can touch
   State state;
+  Stage stage;
+  History rest, shares; ///< internal variables at rest; Bulk::Shares
   SolveCounts counts;
   std::string stop_request; ///< not empty: why the run is to stop after this step, the same on all ranks
   LogEvents events;
@@ -106,16 +119,24 @@ public:
   PetscErrorCode BuildMatrix();
   PetscErrorCode BeginStep(); ///< from the accepted state
   PetscErrorCode UpdatePattern(SNES snes);
+  PetscErrorCode BeginStage(int index, PetscReal time); ///< of SDIRK2
+  PetscErrorCode EndStage(int index, Vec U);
+  PetscErrorCode PredictStage(Vec U) const;
   PetscErrorCode AcceptStep(PetscReal time, Vec U);
+  PetscErrorCode EvaluateEnd(PetscReal time, History &next, CellEnergy &energy); ///< of the solve that converged last
   PetscErrorCode JudgeResidual(Vec F, bool &converged);
   PetscErrorCode FirstStep(PetscReal &step, PetscReal &unresolved) const; ///< of the phase [s]
   PetscErrorCode SumPlateLoads(PlateLoads &loads) const;
   PetscErrorCode Diagnose(SNES snes, StepFailure &failure) const; ///< of a solve that diverged
   PetscErrorCode CheckFriction();                                 ///< in the accepted state; may set stop_reason
   PetscErrorCode EndPhaseEarly();
-  PetscErrorCode TellFailure(); ///< the observers
+  PetscErrorCode TellFailure();                                               ///< the observers
+  PetscErrorCode LargestStrain(const History &history, double &strain) const; ///< and so far, all ranks
+  double expected_compression() const;                     ///< of the gels, the largest of the schedule
+  PlateLoads load_scales(const PlateLoads &largest) const; ///< what errors of N and T are compared with
 
 private:
+  PetscErrorCode SetRates(double step, Vec U);
   PetscErrorCode LocateWorst(const double *f);
   PetscErrorCode SetUpFields();
   PetscErrorCode SetUpTs();
@@ -139,6 +160,16 @@ private:
   PlateLoads plate_loads{};                        ///< on this rank's cells in the last evaluation of the residual
   friend PetscErrorCode PreStep(TS);
 };
+
+/// An estimate with which TS repeats the length of the step: 0.9, its factor of safety, squared.
+inline constexpr double keeps_the_step = 0.81;
+
+/// An error estimate to eight bits. Its last digits are round-off, which differs between numbers of ranks, and so would
+/// the steps: like this they do not, and a step is at most 1/500 off.
+double rounded(double estimate);
+
+/// SDIRK2's error estimate for TS (stages.cpp).
+PetscErrorCode EvaluateSecondOrderError(TS ts, NormType, PetscInt *order, PetscReal *error);
 
 /// Registers the PETSc callbacks on the problem's DM, TS and SNES (callbacks.cpp).
 PetscErrorCode RegisterCallbacks(Problem &problem);

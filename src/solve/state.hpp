@@ -20,12 +20,13 @@ struct State {
   double step_before = 0; ///< the one before [s]
   double next_step = 0;   ///< that TS will try next, within the phase [s]
   int steps_in_phase = 0;
-  VecHandle U, Udot;                           ///< solution and its rate as the residual saw it
-  VecHandle Udot_before;                       ///< the rate in the step before
-  History history;                             ///< internal variables at `time`
+  VecHandle U, Udot;     ///< solution and its rate as the residual saw it
+  VecHandle Udot_before; ///< Euler's rule: the rate in the step before; SDIRK2: the mean rate of the last step
+  History history;       ///< internal variables at `time`
   PlateLoads loads{}, load_rates{}, largest{}; ///< now, in the last step, and their largest absolute values so far
-  double stored = 0;                           ///< energy in the bulk of this rank's cells [N mm]
-  double dissipated = 0;                       ///< by the dashpots since t = 0, this rank's cells [N mm]
+  double largest_strain = 0; ///< SDIRK2: root of the sum of the squares of C_i^-1 - 1, its largest value so far
+  double stored = 0;         ///< energy in the bulk of this rank's cells [N mm]
+  double dissipated = 0;     ///< by the dashpots since t = 0, this rank's cells [N mm]
 };
 
 /// Every member once, by name: `visit(name, member)`, or `visit.Sum(name, member)` where the ranks' values add up to
@@ -46,6 +47,7 @@ template <class Visitor> PetscErrorCode VisitState(State &state, Visitor &visit)
   PetscCall(visit("loads", state.loads));
   PetscCall(visit("load_rates", state.load_rates));
   PetscCall(visit("largest", state.largest));
+  PetscCall(visit("largest_strain", state.largest_strain));
   PetscCall(visit.Sum("stored", state.stored));
   PetscCall(visit.Sum("dissipated", state.dissipated));
   PetscFunctionReturn(0);

@@ -2,6 +2,8 @@
 /// small step at each jump of the plate's motion.
 #include "scene/material_input.hpp"
 #include "solve/problem.hpp"
+#include "solve/two_stage_ts.hpp"
+#include "tribogel/math/sdirk2.hpp"
 
 #include <petsc/private/tsimpl.h> // PETSc 3.18 has no public way to give TS another error estimate
 
@@ -20,35 +22,6 @@ namespace
 constexpr double shortest_of_interest = 1.0 / 500;
 /// A run that creeps on with shorter steps than this part of a phase's first does not get anywhere.
 constexpr double smallest_of_first = 1e-4;
-/// Bits of the error estimate that count. Its last digits are round-off, which differs between numbers of ranks, and so
-/// would the steps: with eight bits they do not, and a step is at most 1/500 off.
-constexpr double estimate_grid = 1 << 8;
-
-double rounded(double estimate)
-{
-  int exponent;
-  const double mantissa = std::frexp(estimate, &exponent);
-  return std::ldexp(std::round(estimate_grid * mantissa) / estimate_grid, exponent);
-}
-
-/// An estimate with which TS repeats the length of the step: 0.9, its factor of safety, squared.
-constexpr double keeps_the_step = 0.81, doubles_the_step = 0.81 / 4;
-
-/// What a free bar of the softer gel would bear at the schedule's largest compression [N]: less than bonded gels bear,
-/// of the same order, and known before anything touches.
-double expected_force(const Scene &scene)
-{
-  double modulus = scene.bottom.material.equilibrium.shear_modulus(), height = scene.bottom.height, approach = 0;
-  double radius = scene.bottom.radius;
-  if (scene.has_top) {
-    modulus = std::min(modulus, scene.top.material.equilibrium.shear_modulus());
-    height += scene.top.height;
-    radius = scene.top.radius;
-  }
-  for (const Phase &phase : scene.schedule) approach = std::max(approach, std::abs(phase.end_approach));
-  const double compression = std::max(0.0, approach - (scene.has_top ? scene.initial_gap : 0)) / height;
-  return 3 * modulus * std::numbers::pi * radius * radius * compression;
-}
 
 /// TS's error estimate, of what is looked at: the local error of N and T, from the second difference of their last
 /// three values as TS takes it of U (h^2/2 times the second derivative), over `-ts_atol` times their largest values so
@@ -62,18 +35,13 @@ PetscErrorCode EvaluateError(TS ts, NormType, PetscInt *order, PetscReal *error)
   PetscCall(TSGetTimeStep(ts, &step));
   PetscCall(TSGetTolerances(ts, &fraction, nullptr, nullptr, nullptr));
   const State &state = problem->state;
-  if (order) *order = 2;                            // the power of the step with which the error grows
-  *error = -1;                                      // unknown
-  if (problem->steady()) *error = doubles_the_step; // nothing is integrated: only failures shorten steps
+  if (order) *order = 2;                              // the power of the step with which the error grows
+  *error = -1;                                        // unknown
+  if (problem->steady()) *error = keeps_the_step / 4; // nothing is integrated: only failures shorten steps
   if (state.steps_in_phase == 0 || problem->steady()) PetscFunctionReturn(0);
   PlateLoads loads;
   PetscCall(problem->SumPlateLoads(loads));
-  // What is only round-off beside the other (the torque before any rotation) is not tracked.
-  constexpr double negligible = 1e-8;
-  const double L = problem->scene.twist_length();
-  const double scale[2] = {
-      std::max({state.largest[0], expected_force(problem->scene), negligible * state.largest[1] / L}),
-      std::max(state.largest[1], negligible * state.largest[0] * L)};
+  const PlateLoads scale = problem->load_scales(state.largest);
   *error = 0;
   for (int k = 0; k < 2; ++k) {
     const double bend = (loads[k] - state.loads[k]) / step - state.load_rates[k];
@@ -88,6 +56,34 @@ PetscErrorCode EvaluateError(TS ts, NormType, PetscInt *order, PetscReal *error)
 }
 
 } // namespace
+
+double rounded(double estimate)
+{
+  constexpr double grid = 1 << 8;
+  int exponent;
+  const double mantissa = std::frexp(estimate, &exponent);
+  return std::ldexp(std::round(grid * mantissa) / grid, exponent);
+}
+
+double Problem::expected_compression() const
+{
+  double height = scene.bottom.height + (scene.has_top ? scene.top.height : 0), approach = 0;
+  for (const Phase &each : scene.schedule) approach = std::max(approach, std::abs(each.end_approach));
+  return std::max(0.0, approach - (scene.has_top ? scene.initial_gap : 0)) / height;
+}
+
+/// Never less than what a free bar of the softer gel would bear at the schedule's largest compression: less than bonded
+/// gels bear, of the same order, and known before anything touches. What is only round-off beside the other (the torque
+/// before any rotation) is not tracked.
+PlateLoads Problem::load_scales(const PlateLoads &largest) const
+{
+  constexpr double negligible = 1e-8;
+  double modulus = scene.bottom.material.equilibrium.shear_modulus();
+  if (scene.has_top) modulus = std::min(modulus, scene.top.material.equilibrium.shear_modulus());
+  const double radius = scene.has_top ? scene.top.radius : scene.bottom.radius, L = scene.twist_length();
+  const double bar = 3 * modulus * std::numbers::pi * radius * radius * expected_compression();
+  return {std::max({largest[0], bar, negligible * largest[1] / L}), std::max(largest[1], negligible * largest[0] * L)};
+}
 
 PetscErrorCode PreStep(TS ts)
 {
@@ -112,8 +108,10 @@ PetscErrorCode Problem::SetUpTs()
   PetscCall(TSSetDM(ts, mesh.dm));
   PetscCall(TSSetProblemType(ts, TS_NONLINEAR));
   PetscCall(TSSetEquationType(ts, TS_EQ_DAE_IMPLICIT_INDEX1));
-  PetscCall(TSSetType(ts, TSBEULER));
-  static_cast<TS>(ts)->ops->evaluatewlte = EvaluateError;
+  const bool second_order = scene.time.rule == TimeRule::sdirk2;
+  PetscCall(RegisterTwoStageTs());
+  PetscCall(TSSetType(ts, second_order ? two_stage_ts : TSBEULER));
+  static_cast<TS>(ts)->ops->evaluatewlte = second_order ? EvaluateSecondOrderError : EvaluateError;
   PetscCall(TSSetExactFinalTime(ts, TS_EXACTFINALTIME_MATCHSTEP));
   PetscCall(TSSetMaxSteps(ts, PETSC_MAX_INT));
   PetscCall(TSSetMaxSNESFailures(ts, -1)); // the limit is per step, below
@@ -124,7 +122,7 @@ PetscErrorCode Problem::SetUpTs()
   PetscCall(TSGetAdapt(ts, &adapt));
   PetscCall(TSAdaptSetType(adapt, TSADAPTBASIC));
   PetscCall(TSAdaptSetClip(adapt, 0.1, 10));
-  PetscCall(TSSetTolerances(ts, 1e-3, nullptr, 0, nullptr));
+  PetscCall(TSSetTolerances(ts, 0.01 * scene.time.tolerance, nullptr, 0, nullptr));
 
   PetscCall(TSGetSNES(ts, &snes));
   PetscCall(SNESSetType(snes, SNESNEWTONLS));
@@ -150,37 +148,20 @@ PetscErrorCode Problem::SumPlateLoads(PlateLoads &loads) const
 PetscErrorCode Problem::AcceptStep(PetscReal time, Vec U)
 {
   SNES snes;
-  Vec local, solution;
-  const PetscScalar *u;
   StepReport report;
   CellEnergy energy;
+  History next;
   PetscFunctionBeginUser;
   PetscCall(PetscLogEventBegin(events.accept_step, 0, 0, 0, 0));
   const double step = time - state.time;
   if (U != static_cast<Vec>(state.U)) PetscCall(VecCopy(U, state.U));
-  PetscCall(VecSwap(state.Udot, state.Udot_before));
-  PetscCall(VecWAXPY(state.Udot, -1, before, U));
-  PetscCall(VecScale(state.Udot, 1 / step)); // backward Euler's rate
-
-  // SNES's solution: TS's U is that to round-off, but this is where the bulk has been evaluated.
-  PetscCall(TSGetSNES(ts, &snes));
-  PetscCall(SNESGetSolution(snes, &solution));
-  PetscCall(DMGetLocalVector(mesh.dm, &local));
-  PetscCall(VecZeroEntries(local));
-  PetscCall(DMGlobalToLocal(mesh.dm, solution, INSERT_VALUES, local));
-  PetscScalar *values;
-  PetscCall(VecGetArray(local, &values));
-  SetBoundary(time, values, nullptr);
-  PetscCall(VecRestoreArray(local, &values));
-  PetscCall(VecGetArrayRead(local, &u));
-  History next(state.history.size());
-  const BulkFailure failure = bulk->Advance(u, state.history, weights(time), next, energy);
-  PetscCheck(!failure, PETSC_COMM_SELF, PETSC_ERR_PLIB, "a converged step cannot be evaluated again");
-  PetscCall(VecRestoreArrayRead(local, &u));
-  PetscCall(DMRestoreLocalVector(mesh.dm, &local));
+  PetscCall(SetRates(step, U));
+  PetscCall(EvaluateEnd(time, next, energy));
+  if (scene.time.rule == TimeRule::sdirk2) PetscCall(LargestStrain(next, state.largest_strain));
+  stage.index = 0;
   state.history = std::move(next);
   state.stored = energy.stored;
-  state.dissipated += energy.dissipated;
+  state.dissipated += stage.dissipated + energy.dissipated;
   state.time = time;
   state.step_before = state.step;
   state.step = step;
@@ -193,8 +174,11 @@ PetscErrorCode Problem::AcceptStep(PetscReal time, Vec U)
     state.largest[k] = std::max(state.largest[k], std::abs(loads[k]));
   }
 
+  PetscCall(TSGetSNES(ts, &snes));
   PetscCall(SNESGetIterationNumber(snes, &report.newton_iterations));
   PetscCall(SNESGetLinearSolveIterations(snes, &report.linear_iterations));
+  report.newton_iterations += stage.newton_iterations;
+  report.linear_iterations += stage.linear_iterations;
   report.ends_phase = time == phase().end_time;
   PetscCall(CheckFriction());
   PetscCall(EndPhaseEarly());
@@ -239,12 +223,15 @@ PetscErrorCode Problem::UpdatePattern(SNES snes)
   PetscCall(DMGetLocalVector(mesh.dm, &local));
   PetscCall(VecZeroEntries(local));
   PetscCall(DMGlobalToLocal(mesh.dm, U, INSERT_VALUES, local));
-  PetscReal time, step;
-  PetscCall(TSGetTime(ts, &time));
-  PetscCall(TSGetTimeStep(ts, &step));
+  PetscReal time = stage.time, length = stage.length;
+  if (scene.time.rule == TimeRule::exponential_euler) {
+    PetscCall(TSGetTime(ts, &time));
+    PetscCall(TSGetTimeStep(ts, &length));
+    time += length;
+  }
   PetscCall(VecGetArray(local, &u));
-  SetBoundary(time + step, u, nullptr);
-  PetscCall(contact->UpdateCandidates(frames(time + step, step), u, covered));
+  SetBoundary(time, u, nullptr);
+  PetscCall(contact->UpdateCandidates(frames(time, length), u, covered));
   PetscCall(VecRestoreArray(local, &u));
   PetscCall(DMRestoreLocalVector(mesh.dm, &local));
   if (!covered) {
@@ -267,7 +254,8 @@ PetscErrorCode Problem::FirstStep(PetscReal &step, PetscReal &unresolved) const
   double tau = shortest_of_interest * phase().duration();
   for (const Specimen *gel : {&scene.bottom, scene.has_top ? &scene.top : &scene.bottom})
     for (const auto &branch : gel->material.branches) tau = std::min(tau, shape_relaxation_time(branch));
-  unresolved = step = std::min(std::sqrt(2 * fraction) * tau, phase().duration());
+  const double constant = scene.time.rule == TimeRule::sdirk2 ? sdirk2::error_constant : 0.5;
+  unresolved = step = std::min(std::sqrt(fraction / constant) * tau, phase().duration());
   if (given_first_step > 0) {
     step = std::min(given_first_step, phase().duration());
     unresolved = std::min(step, unresolved);

@@ -258,6 +258,7 @@ TEST(OptionsScene, refuses_unknown_words)
   expect_refused("-schedule_kind", "periodic");
   expect_refused("-contact_integration", "elements");
   expect_refused("-maxwell_integrator", "bdf2");
+  expect_refused("-time_tolerance", "0");
   expect_refused("-friction_law", "polynomal");
   EXPECT_TRUE(contains(refusal({{"-friction_law", "polynomal"}}), "did you mean polynomial?"));
 }

@@ -95,6 +95,18 @@ TEST(energy, OfPressingAndTurningBalancesToFirstOrder)
   }
 }
 
+TEST(energy, OfPressingAndTurningBalancesToSecondOrderWithSdirk2)
+{
+  Scene scene = pressed_and_turned(2, {{2}, {1}}, 0.02);
+  scene.time.rule = TimeRule::sdirk2;
+  const auto runs = halvings(scene, 0.375);
+  for (std::size_t phase : {0, 2}) {
+    const std::array<double, 3> r = residuals(runs, phase);
+    EXPECT_GE(order_in_time(r), 1.8);
+    EXPECT_LE(std::abs(r[2]), 1e-3);
+  }
+}
+
 TEST(energy, OfCoulombSlidingBalances)
 {
   const Scene scene = pressed_and_turned(2, {{0.1}, {0}}, 0.03);

@@ -28,13 +28,14 @@ struct SpinUp {
   double exact(double t) const { return c * omega * -std::expm1(-k * t / c); }
 };
 
-SpinUp spin_up(int order, int elements, double dt)
+SpinUp spin_up(int order, int elements, double dt, TimeRule rule = TimeRule::exponential_euler)
 {
   const SolverOptions options(fixed_steps(dt, 1e-12));
   const double compression = 0.08;
   Scene scene = lubricated_discs(7, 3.1, 2.3, order);
   scene.mesh.elements_radial = elements;
   scene.friction = {{b1}, {1}};
+  scene.time.rule = rule;
   const double approach = compression * (scene.top.height + scene.bottom.height);
   scene.schedule = schedule_from_rates({start, start + duration}, {approach, approach}, {0, omega});
   Problem problem;
@@ -90,15 +91,31 @@ TEST(spin_up, FollowsBackwardEulersRecursion)
   }
 }
 
-TEST(spin_up, ConvergesToTheExactCurveAtFirstOrderInTime)
+namespace
+{
+
+void expect_order_in_time(TimeRule rule, int elements, double order)
 {
   std::vector<double> error;
   for (double dt : {0.125, 0.0625, 0.03125}) {
-    const SpinUp is = spin_up(2, 4, dt);
+    const SpinUp is = spin_up(2, elements, dt, rule);
     EXPECT_GT(is.k * duration / is.c, 3); // the curve levels off within the run
     error.push_back(from_curve(is));
+    std::printf("dt %.5f: error %.3e\n", dt, error.back());
   }
-  EXPECT_NEAR(std::log2(error[1] / error[2]), 1, 0.1);
+  EXPECT_NEAR(std::log2(error[1] / error[2]), order, 0.1);
+}
+
+} // namespace
+
+TEST(spin_up, ConvergesToTheExactCurveAtFirstOrderInTime)
+{
+  expect_order_in_time(TimeRule::exponential_euler, 4, 1);
+}
+
+TEST(spin_up, ConvergesToTheExactCurveAtSecondOrderInTimeWithSdirk2)
+{
+  expect_order_in_time(TimeRule::sdirk2, 16, 2);
 }
 
 } // namespace tribogel::test

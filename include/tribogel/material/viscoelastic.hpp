@@ -7,7 +7,6 @@
 #include "tribogel/math/spectral.hpp"
 #include "tribogel/math/tensor.hpp"
 
-#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -55,7 +54,7 @@ private:
                          const VolumetricStress<T> &volumetric, bool with_tangent, Response<T> &out);
   static void add_tangent(const Spectral<T> &strain, const DeviatoricStress<T> &deviatoric,
                           const VolumetricStress<T> &volumetric, Mandel4<double> &tangent);
-  static Matrix3<T> elastic_strain(const Spectral<T> &trial, const BranchStep<T> &step);
+  static Matrix3<T> elastic_strain(const Spectral<T> &trial, const BranchStep<T> &step, double reach);
 };
 
 template <class T> void Viscoelastic<T>::initial_history(T *history) const
@@ -75,7 +74,6 @@ Response<T> Viscoelastic<T>::evaluate(const Matrix3<T> &F, const HistoryLevels<T
                                       T *history_new, bool with_tangent) const
 {
   using std::log;
-  assert(weights.older == 0);
   Response<T> out;
   const T J = F.determinant();
   if (!(J > 0) || std::isinf(value(J))) return out.status = PointStatus::inverted, out;
@@ -98,7 +96,7 @@ Response<T> Viscoelastic<T>::evaluate(const Matrix3<T> &F, const HistoryLevels<T
     out.dissipated += step.dissipated;
     add_stress(trial, step.deviatoric, step.volumetric, with_tangent, out);
     if (history_new) {
-      const Matrix3<T> updated = inverse * elastic_strain(trial, step) * inverse.transpose();
+      const Matrix3<T> updated = inverse * elastic_strain(trial, step, weights.reach) * inverse.transpose();
       Eigen::Map<Mandel<T>>(history_new + history_per_branch * m) = to_mandel(updated);
     }
   }
@@ -138,17 +136,22 @@ void Viscoelastic<T>::add_tangent(const Spectral<T> &strain, const DeviatoricStr
   tangent.noalias() += half * R.transpose();
 }
 
-/// b_e of the new state, an isotropic function of the trial strain.
-template <class T> Matrix3<T> Viscoelastic<T>::elastic_strain(const Spectral<T> &trial, const BranchStep<T> &step)
+/// b_e of the new state, an isotropic function of the trial strain; its logarithms lie `reach` times as far from those
+/// of the trial strain as the step's.
+template <class T>
+Matrix3<T> Viscoelastic<T>::elastic_strain(const Spectral<T> &trial, const BranchStep<T> &step, double reach)
 {
   using std::exp;
-  const Vector3<T> b = (2 * step.strain).array().exp();
+  Vector3<T> strain = step.strain;
+  if (reach != 1) strain = trial.values + reach * (step.strain - trial.values);
+  const Vector3<T> b = (2 * strain).array().exp();
   Vector3<double> divided;
   for (int k = 0; k < 3; ++k) {
     const int p = pair_index[k][0], q = pair_index[k][1];
-    const double x = value(step.strain[p]), y = value(step.strain[q]);
+    const double x = value(strain[p]), y = value(strain[q]);
     // (b_p - b_q)/(x - y) times (x - y)/(trial_p - trial_q), THEORY (1.16)
-    divided[k] = 2 * std::exp(x + y) * sinhc(x - y) * step.strain_ratio[k];
+    const double ratio = reach == 1 ? step.strain_ratio[k] : 1 + reach * (step.strain_ratio[k] - 1);
+    divided[k] = 2 * std::exp(x + y) * sinhc(x - y) * ratio;
   }
   return isotropic_function(trial, b, divided);
 }

@@ -52,6 +52,17 @@ struct MeshParameters {
 /// What the phases are: motions in time, or one relaxed state for each phase's end, whatever came before.
 enum class ScheduleKind { transient, steady };
 
+/// How the steps of time are taken, THEORY 4.1 and 4.2.
+enum class TimeRule {
+  exponential_euler, ///< backward Euler, first order: the paper's
+  sdirk2             ///< two backward Euler solves a step, second order
+};
+
+struct TimeParameters {
+  TimeRule rule = TimeRule::exponential_euler;
+  double tolerance = 0.1; ///< of the errors that the step control keeps, per cent of the largest values so far
+};
+
 struct OutputParameters {
   std::string directory = "tribogel-output";
   bool overwrite = false;
@@ -74,6 +85,7 @@ struct Scene {
   double phase_end_tolerance = 0; ///< see -phase_end_tolerance; 0: off [% of the largest N and T so far]
   double bottom_plate_rate = 0;   ///< co-rotation of the bottom plate [rad/s]; no option, 0 but in tests
   MeshParameters mesh;
+  TimeParameters time;
   OutputParameters output;
 
   /// The length that makes a twist a displacement: the radius of the top (or only) specimen [mm].

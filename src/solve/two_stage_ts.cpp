@@ -1,0 +1,164 @@
+#include "solve/two_stage_ts.hpp"
+
+#include "solve/problem.hpp"
+#include "tribogel/math/sdirk2.hpp"
+
+#include <petsc/private/tsimpl.h> // PETSc 3.18 has no other way to add a type
+
+#include <memory>
+
+namespace tribogel
+{
+
+namespace
+{
+
+/// Vectors of the step at hand: U_n, the stage's solution and rate, and where the rate is counted from.
+struct TwoStageData {
+  VecHandle before, U, rate, base;
+  double shift = 0; ///< d rate/dU [1/s]
+  double time = 0;  ///< of the stage [s]
+};
+
+TwoStageData &data_of(TS ts)
+{
+  return *static_cast<TwoStageData *>(ts->data);
+}
+
+PetscErrorCode SetUp(TS ts)
+{
+  TwoStageData &data = data_of(ts);
+  PetscFunctionBegin;
+  for (VecHandle *v : {&data.before, &data.U, &data.rate, &data.base})
+    if (!static_cast<Vec>(*v)) PetscCall(VecDuplicate(ts->vec_sol, v->put()));
+  PetscCall(TSGetAdapt(ts, &ts->adapt));
+  PetscCall(TSAdaptCandidatesClear(ts->adapt));
+  PetscCall(TSGetSNES(ts, &ts->snes));
+  ts->stifflyaccurate = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Reset(TS ts)
+{
+  PetscFunctionBegin;
+  data_of(ts) = {};
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Destroy(TS ts)
+{
+  PetscFunctionBegin;
+  delete static_cast<TwoStageData *>(ts->data);
+  ts->data = nullptr;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode StageFunction(SNES, Vec U, Vec F, TS ts)
+{
+  TwoStageData &data = data_of(ts);
+  PetscFunctionBegin;
+  PetscCall(VecAXPBYPCZ(data.rate, data.shift, -data.shift, 0, U, data.base));
+  PetscCall(TSComputeIFunction(ts, data.time, U, data.rate, F, PETSC_FALSE));
+  PetscFunctionReturn(0);
+}
+
+/// At the U, and so with the rate, of the last StageFunction: SNES guarantees it.
+PetscErrorCode StageJacobian(SNES, Vec U, Mat A, Mat P, TS ts)
+{
+  TwoStageData &data = data_of(ts);
+  PetscFunctionBegin;
+  PetscCall(TSComputeIJacobian(ts, data.time, U, data.rate, data.shift, A, P, PETSC_FALSE));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SolveStages(TS ts, PetscBool &solved)
+{
+  TwoStageData &data = data_of(ts);
+  Problem *problem;
+  PetscInt newton, linear;
+  PetscFunctionBegin;
+  PetscCall(TSGetApplicationContext(ts, &problem));
+  const double length = sdirk2::gamma * ts->time_step;
+  data.shift = 1 / length;
+  PetscCall(VecCopy(data.before, data.base));
+  for (int stage = 0; stage < 2; ++stage) {
+    data.time = ts->ptime + (stage == 0 ? length : ts->time_step);
+    if (stage == 1) // U_n + reach (U_1 - U_n)
+      PetscCall(VecAXPBYPCZ(data.base, sdirk2::reach, 1 - sdirk2::reach, 0, data.U, data.before));
+    PetscCall(problem->BeginStage(stage, data.time));
+    PetscCall(SNESSolve(ts->snes, nullptr, data.U));
+    PetscCall(SNESGetIterationNumber(ts->snes, &newton));
+    PetscCall(SNESGetLinearSolveIterations(ts->snes, &linear));
+    ts->snes_its += newton;
+    ts->ksp_its += linear;
+    Vec end = data.U;
+    PetscCall(TSPostStage(ts, data.time, stage, &end));
+    PetscCall(TSAdaptCheckStage(ts->adapt, ts, data.time, data.U, &solved));
+    if (!solved) break;
+    PetscCall(problem->EndStage(stage, data.U));
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Step(TS ts)
+{
+  TwoStageData &data = data_of(ts);
+  PetscInt rejections = 0;
+  PetscBool accepted = PETSC_TRUE; // what TSAdapt wants to know: no attempt has failed yet
+  PetscFunctionBegin;
+  PetscCall(VecCopy(ts->vec_sol, data.before));
+  while (!ts->reason) {
+    PetscBool solved;
+    PetscReal next = ts->time_step;
+    PetscCall(SolveStages(ts, solved));
+    if (solved) {
+      PetscCall(VecCopy(data.U, ts->vec_sol));
+      PetscCall(TSAdaptChoose(ts->adapt, ts, ts->time_step, nullptr, &next, &accepted));
+      if (accepted) {
+        ts->ptime += ts->time_step;
+        ts->time_step = next;
+        break;
+      }
+      PetscCall(VecCopy(data.before, ts->vec_sol));
+      ts->time_step = next;
+    }
+    accepted = PETSC_FALSE;
+    ++ts->reject;
+    if (!ts->reason && ++rejections > ts->max_reject && ts->max_reject >= 0) ts->reason = TS_DIVERGED_STEP_REJECTED;
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode RollBack(TS ts)
+{
+  PetscFunctionBegin;
+  PetscCall(VecCopy(data_of(ts).before, ts->vec_sol));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Create(TS ts)
+{
+  PetscFunctionBegin;
+  ts->ops->setup = SetUp;
+  ts->ops->reset = Reset;
+  ts->ops->destroy = Destroy;
+  ts->ops->step = Step;
+  ts->ops->rollback = RollBack;
+  ts->ops->snesfunction = StageFunction;
+  ts->ops->snesjacobian = StageJacobian;
+  ts->default_adapt_type = TSADAPTBASIC;
+  ts->usessnes = PETSC_TRUE;
+  ts->data = std::make_unique<TwoStageData>().release();
+  PetscFunctionReturn(0);
+}
+
+} // namespace
+
+PetscErrorCode RegisterTwoStageTs()
+{
+  PetscFunctionBegin;
+  PetscCall(TSRegister(two_stage_ts, Create));
+  PetscFunctionReturn(0);
+}
+
+} // namespace tribogel
