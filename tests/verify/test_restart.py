@@ -77,10 +77,6 @@ def ranks_of(launcher):
             if pathlib.Path(f"/proc/{child}/comm").read_text().strip() == pathlib.Path(ARGUMENTS.tribogel).name]
 
 
-def start(ranks, words, folder):
-    return subprocess.Popen(command(ranks) + words, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-
-
 class Folder(unittest.TestCase):
     def setUp(self):
         holder = tempfile.TemporaryDirectory()
@@ -90,6 +86,12 @@ class Folder(unittest.TestCase):
     def assert_same(self, directory, reference):
         for difference in differences(self.folder / directory, self.folder / reference):
             self.assertLessEqual(difference, TOLERANCE)
+
+    def start(self, ranks, words):
+        program = subprocess.Popen(command(ranks) + words, cwd=self.folder, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        self.addCleanup(lambda: program.poll() is None and program.terminate())
+        return program
 
     def copy(self, old, new):
         shutil.copytree(self.folder / old, self.folder / new)
@@ -101,7 +103,7 @@ class Killed(Folder):
         """SIGKILL at some moment to all ranks, or to one, and mpirun then ends the others. Returns the moment."""
         while True:
             delay = random.uniform(0, longest)
-            launcher = start(2, SCENE + ["-checkpoint_every", every, "-output_directory", name], self.folder)
+            launcher = self.start(2, SCENE + ["-checkpoint_every", every, "-output_directory", name])
             time.sleep(delay)
             try:
                 victims = ranks_of(launcher.pid)
@@ -167,7 +169,7 @@ class Stopped(Folder):
         for ranks, sent in ((1, signal.SIGUSR1), (1, signal.SIGTERM), (1, signal.SIGINT), (2, signal.SIGUSR1)):
             with self.subTest(ranks=ranks, signal=sent.name):
                 name = f"{sent.name}{ranks}"
-                program = start(ranks, SCENE + ["-output_directory", name, "-checkpoint_every", "0"], self.folder)
+                program = self.start(ranks, SCENE + ["-output_directory", name, "-checkpoint_every", "0"])
                 self.wait_for_rows(name, 5)
                 program.send_signal(sent)  # mpirun hands SIGUSR1 on
                 self.assertEqual(program.wait(timeout=60), 4)
@@ -178,7 +180,7 @@ class Stopped(Folder):
                 self.assert_same(name, "whole")
 
     def test_one_signalled_rank_stops_all(self):
-        program = start(2, SCENE + ["-output_directory", "run", "-checkpoint_every", "0"], self.folder)
+        program = self.start(2, SCENE + ["-output_directory", "run", "-checkpoint_every", "0"])
         self.wait_for_rows("run", 5)
         os.kill(ranks_of(program.pid)[1], signal.SIGUSR1)
         self.assertEqual(program.wait(timeout=60), 4)
