@@ -56,6 +56,8 @@ PetscErrorCode Saver::operator()(const std::string &name, VecHandle &vector)
 PetscErrorCode Saver::operator()(const std::string &name, History &history)
 {
   PetscFunctionBeginUser;
+  PetscCheck(history.size() == orders.internal.local_size(), PETSC_COMM_SELF, PETSC_ERR_PLIB,
+             "%s has another size than Bulk's internal variables", name.c_str());
   PetscCall(orders.internal.Gather(history.data(), file.numbers[name]));
   PetscFunctionReturn(0);
 }
@@ -97,6 +99,7 @@ PetscErrorCode Loader::operator()(const std::string &name, VecHandle &vector)
 PetscErrorCode Loader::operator()(const std::string &name, History &history)
 {
   PetscFunctionBeginUser;
+  history.resize(orders.internal.local_size());
   PetscCall(orders.internal.Scatter(Take(name, orders.internal.size()), history.data()));
   PetscFunctionReturn(0);
 }

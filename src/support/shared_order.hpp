@@ -21,6 +21,7 @@ public:
   PetscErrorCode Scatter(const std::vector<double> &all, double *local) const;
 
   std::size_t size() const { return place.size(); } ///< of all processes together; known to the first one
+  std::size_t local_size() const { return static_cast<std::size_t>(mine); }
 
 private:
   MPI_Comm comm = MPI_COMM_NULL;

@@ -1,6 +1,6 @@
-/// A run that goes on from a checkpoint is the run that was never interrupted: on one rank bit for bit, on others to the
-/// round-off of another order of summation (MUMPS on several ranks sums in the order in which messages come). Checkpoints are written by all ranks of PETSC_COMM_WORLD and read by
-/// each rank alone, and the other way round.
+/// A run that goes on from a checkpoint is the run that was never interrupted: on one rank bit for bit, on others to
+/// the round-off of another order of summation (MUMPS on several ranks sums in the order in which messages come).
+/// Checkpoints are written by all ranks of PETSC_COMM_WORLD and read by each rank alone, and the other way round.
 #include "observe/checkpoint.hpp"
 #include "probe.hpp"
 #include "scene/user_error.hpp"
