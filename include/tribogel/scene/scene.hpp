@@ -46,7 +46,7 @@ struct MeshParameters {
                                   ///< to make the meshes non-matching
 };
 
-/// How the steps of time are taken, THEORY 4.1 and 4.2.
+/// How the steps of time are taken, THEORY 4.1 and 4.4.
 enum class TimeRule {
   exponential_euler, ///< backward Euler, first order: the paper's
   sdirk2             ///< two backward Euler solves a step, second order
