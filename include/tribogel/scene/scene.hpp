@@ -53,7 +53,7 @@ enum class TimeRule {
 };
 
 struct TimeParameters {
-  TimeRule rule = TimeRule::exponential_euler;
+  TimeRule rule = TimeRule::sdirk2;
   double tolerance = 0.1; ///< of the errors that the step control keeps, per cent of the largest values so far
 };
 
