@@ -1,6 +1,7 @@
-/// Euler's rule with its default tolerance keeps what it promises: N(t) within 0.3 % of its largest value and N at the ends of phases within
-/// 0.1 % of a run with steps so short that their own error is a tenth of that; and the error falls as the root of the
-/// tolerance. Fails without N in the estimate, with a quarter of it, and with first steps five times as long.
+/// Euler's rule with its default tolerance keeps what it promises: N(t) within 0.3 % of its largest value and N at the
+/// ends of phases within 0.1 % of a run with steps so short that their own error is a tenth of that; and the error
+/// falls as the root of the tolerance. Fails without N in the estimate, with a quarter of it, and with first steps five
+/// times as long.
 #include "probe.hpp"
 #include "solver_options.hpp"
 
