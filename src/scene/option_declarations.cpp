@@ -269,10 +269,10 @@ OptionGroup discretisation_group()
             .choices = {"segments"}},
            {.name = "-maxwell_integrator",
             .kind = OptionKind::choice,
-            .fallback = "exponential_euler",
+            .fallback = "sdirk2",
             .meaning = "time rule of the Maxwell branches and of the sliding velocity, unconditionally stable:"
                        " exponential_euler: first order; sdirk2: second order, two solves a step",
-            .source = "paper",
+            .source = "own",
             .choices = {"exponential_euler", "sdirk2"}},
            {.name = "-time_tolerance",
             .kind = OptionKind::real,

@@ -18,6 +18,7 @@ namespace
 Scene pressed_and_turned(int order, const PolynomialFriction<double> &friction, double rate)
 {
   Scene scene = paper_scene(4, order);
+  scene.time.rule = TimeRule::exponential_euler;
   scene.friction = friction;
   scene.schedule = schedule_from_rates({27, 36, 45}, {0.79, 0.79, 0.79}, {0, 0, rate});
   return scene;

@@ -91,8 +91,9 @@ struct Outcome {
   double spread = 1; ///< largest over smallest C of a phase, the worst phase
 };
 
-void watch(const Scene &scene, Outcome &outcome)
+void watch(Scene scene, Outcome &outcome)
 {
+  scene.time.rule = TimeRule::exponential_euler; // one solve a step
   Problem problem;
   NewtonWatch newton(problem);
   SNES snes;

@@ -26,6 +26,7 @@ Scene turned_and_back(int order)
   Scene scene = paper_scene(4, order);
   scene.top.material = scene.bottom.material = hyperelastic_gel();
   scene.friction = {{mu}, {0}};
+  scene.time.rule = TimeRule::exponential_euler; // one solve a step: its iterations are counted
   scene.schedule = schedule_from_rates({27, 727, 2127}, {0.79, 0.79, 0.79}, {0, 0.01, -0.01});
   return scene;
 }

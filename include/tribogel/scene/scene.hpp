@@ -52,14 +52,14 @@ struct MeshParameters {
 /// What the phases are: motions in time, or one relaxed state for each phase's end, whatever came before.
 enum class ScheduleKind { transient, steady };
 
-/// How the steps of time are taken, THEORY 4.1 and 4.2.
+/// How the steps of time are taken, THEORY 4.1 and 4.4.
 enum class TimeRule {
   exponential_euler, ///< backward Euler, first order: the paper's
   sdirk2             ///< two backward Euler solves a step, second order
 };
 
 struct TimeParameters {
-  TimeRule rule = TimeRule::exponential_euler;
+  TimeRule rule = TimeRule::sdirk2;
   double tolerance = 0.1; ///< of the errors that the step control keeps, per cent of the largest values so far
 };
 
