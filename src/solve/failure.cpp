@@ -85,6 +85,13 @@ PetscErrorCode PostStage(TS ts, PetscReal, PetscInt, Vec *)
   PetscCall(problem->Diagnose(snes, failure));
   ++problem->counts.failures[static_cast<std::size_t>(failure.kind)];
   PetscCall(problem->TellFailure());
+
+  // TSAdapt keeps to its smallest step when it chooses one, not when it cuts one.
+  TSAdapt adapt;
+  PetscReal smallest;
+  PetscCall(TSGetAdapt(ts, &adapt));
+  PetscCall(TSAdaptGetStepLimits(adapt, &smallest, nullptr));
+  if (failure.step <= smallest) PetscCall(TSSetConvergedReason(ts, TS_DIVERGED_STEP_REJECTED));
   PetscFunctionReturn(0);
 }
 
