@@ -12,41 +12,11 @@
 
 #include "tribogel/contact/axisymmetric_area.hpp"
 #include "tribogel/contact/axisymmetric_jacobian.hpp"
+#include "tribogel/contact/condition_slope.hpp"
 #include "tribogel/contact/search.hpp"
 
 namespace tribogel
 {
-
-struct MortarReport {
-  MortarStatus status = MortarStatus::ok;
-  int facet = -1; ///< slave facet of the first failure
-  double overhang =
-      0; ///< reference length of slave beyond the master's edge [mm], of facets whose outer end is asked for
-};
-
-/// One slave node's contribution. Columns: (u_R, w, u_Z) of each slave node, of each master node, then the multiplier
-/// (r, theta, z) of node a; rows: u of the first `slave_rows` slave nodes (a itself, and the crease node tied to it),
-/// of each master node, then the conditions.
-struct NodeBlock {
-  std::vector<int> slave_nodes, master_nodes;
-  int slave_rows = 1;       ///< 2 where the multiplier is extended to a crease
-  Eigen::VectorXd residual; ///< [N]
-  Eigen::MatrixXd jacobian; ///< with d rate / d u = shift; only after update(derivatives = true)
-  ContactStatus status;
-};
-
-/// What observers want to know of a slave node. NaN where no multiplier is carried.
-struct NodeResult {
-  bool carries;
-  ContactStatus status;
-  double weight;                   ///< nominal traction times weight is a force [mm^2]
-  double area;                     ///< current: Cauchy traction times area is the same force [mm^2]
-  double gap;                      ///< [mm]
-  double pressure;                 ///< Cauchy [MPa]
-  Vector3<double> nominal, cauchy; ///< traction on the slave [MPa]
-  Vector3<double> velocity;        ///< sliding velocity, slave minus master, tangential part [mm/s]
-  Vector3<double> normal;          ///< unit, out of the slave
-};
 
 class AxisymmetricContact
 {
@@ -131,7 +101,7 @@ private:
   }
   bool is_folded(int f) const;
   template <int inputs, class Law>
-  Eigen::Matrix<double, 3, inputs> condition_slope(int a, const NodeContact<double> &contact, const Law &law) const;
+  Eigen::Matrix<double, 3, inputs> slope_at(int a, const NodeContact<double> &contact, const Law &law) const;
   void add_area_slope(int a, const Vector3<double> &condition, NodeBlock &block) const;
   void without_multiplier(int a, NodeBlock &block) const;
 };
@@ -196,33 +166,22 @@ void AxisymmetricContact::node(int a, const Law &law, NodeBlock &block) const
   if (!with_derivatives) return;
 
   const NodeDerivative derivative(geometry, now, contact, y, dn, facets, a, block.slave_nodes);
-  if (law.linear_in_pressure()) return derivative.assemble(condition_slope<10>(a, contact, law), block.jacobian);
-  const Eigen::Matrix<double, 3, 11> slope = condition_slope<11>(a, contact, law);
+  if (law.linear_in_pressure()) return derivative.assemble(slope_at<10>(a, contact, law), block.jacobian);
+  const Eigen::Matrix<double, 3, 11> slope = slope_at<11>(a, contact, law);
   derivative.assemble(slope.template leftCols<10>(), block.jacobian);
   add_area_slope(a, slope.col(10), block);
 }
 
 /// d (D C) / d (multiplier 0..2, gap 3, velocity 4..6, normal 7..9, area ratio 10).
 template <int inputs, class Law>
-Eigen::Matrix<double, 3, inputs> AxisymmetricContact::condition_slope(int a, const NodeContact<double> &contact,
-                                                                      const Law &law) const
+Eigen::Matrix<double, 3, inputs> AxisymmetricContact::slope_at(int a, const NodeContact<double> &contact,
+                                                               const Law &law) const
 {
-  using D = Dual<inputs>;
-  ContactPoint<D> point;
-  const double normal[3] = {contact.n.r, 0, contact.n.z};
-  point.gap = D::seed(contact.gap, 3);
-  for (int i = 0; i < 3; ++i) {
-    point.multiplier[i] = D::seed(now.multiplier[a][i], i);
-    point.velocity[i] = D::seed(contact.velocity[i], 4 + i);
-    point.normal[i] = D::seed(normal[i], 7 + i);
-  }
-  if constexpr (inputs > 10) point.area_ratio = D::seed(contact.area_ratio, 10);
   const auto &constants = geometry.nodes[a];
-  const auto C = contact_condition<D>(point, {constants.c_N, constants.c_N / now.stick_rate}, law, constants.on_axis);
-  Eigen::Matrix<double, 3, inputs> slope;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < inputs; ++j) slope(i, j) = constants.weight() * C.residual[i].d[j];
-  return slope;
+  const ContactPoint<double> point{
+      now.multiplier[a], {contact.n.r, 0, contact.n.z}, contact.gap, contact.velocity, contact.area_ratio};
+  return constants.weight() *
+         condition_slope<inputs>(point, {constants.c_N, constants.c_N / now.stick_rate}, law, constants.on_axis);
 }
 
 /// Through the area ratio the conditions depend on the positions of the facets' nodes.

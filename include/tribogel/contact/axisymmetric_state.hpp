@@ -5,7 +5,7 @@
 #pragma once
 
 #include "tribogel/contact/line_facet.hpp"
-#include "tribogel/math/tensor.hpp"
+#include "tribogel/contact/state.hpp"
 
 #include <vector>
 
@@ -16,25 +16,6 @@ namespace tribogel
 struct SurfaceReference {
   std::vector<PlanePoint<double>> X;      ///< (R, Z) of each node [mm]
   std::vector<std::array<int, 3>> facets; ///< node numbers; the third is ignored in order 1
-};
-
-/// Of one body and its plate. T is double, or Dual in tests and sensitivities.
-template <class T> struct SurfaceState {
-  std::vector<Vector3<T>> u;    ///< unknowns of each node [mm]
-  std::vector<Vector3<T>> rate; ///< their time derivatives [mm/s]
-  double travel = 0;            ///< of the plate along z [mm]
-  double travel_rate = 0;       ///< [mm/s]
-  double rotation_rate = 0;     ///< of the plate about z [rad/s]; the angle itself is never needed
-};
-
-template <class T> struct ContactState {
-  SurfaceState<T> slave, master;
-  std::vector<Vector3<T>>
-      multiplier;   ///< of each slave node: nominal traction on the slave [MPa]; 0 where none is carried
-  double shift = 1; ///< d rate / d u of the time rule [1/s], for the Jacobian only
-  /// Sets c_T = c_N / stick_rate [1/s], say 1/dt. It is part of the equation: the residual and the Jacobian of one step
-  /// must be given the same value.
-  double stick_rate = 1;
 };
 
 /// Current position of node a.

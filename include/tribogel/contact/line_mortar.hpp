@@ -15,17 +15,11 @@
 #pragma once
 
 #include "tribogel/contact/line_facet.hpp"
+#include "tribogel/contact/report.hpp"
 #include "tribogel/math/dual.hpp"
 
 namespace tribogel
 {
-
-enum class MortarStatus {
-  ok,
-  folded,        ///< a facet is inside out, or seen from behind
-  no_projection, ///< a projection did not converge, or data are not finite
-  uncovered      ///< the candidate pairs do not cover a slave facet: search again
-};
 
 template <int nodes, class T> struct LinePair {
   FacetPoints<nodes, T> x, n, y;               ///< slave positions and normals, master positions

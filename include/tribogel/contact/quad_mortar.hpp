@@ -1,0 +1,350 @@
+/// Mortar integrals of one pair of facets in space, exact cells, with their derivatives.
+///
+///     M_ab = int psi_a(xi) N_b(eta(xi)) J(xi) dxi,     J the reference weight of the slave facet
+///
+/// over the part of the slave facet that faces the master facet: along the normals n(xi) = sum N_a n_a (THEORY, section
+/// 3.6). The master's outline, as a polygon of points at fixed eta, is projected into the slave's parameter plane,
+///
+///     x(xi) + g n(xi) = y(eta)                                                                   for (xi, g),
+///
+/// clipped to the square [-1, 1]^2 and cut into triangles with Gauss points, whose eta follows from the same equation
+/// for (eta, g). Master facets that share an outline thus tile the slave's square without gap or overlap, and sum_b
+/// M_ab over all of them is D_a to round-off. A quadratic or distorted facet's projected outline is a curve, of which
+/// the polygon takes the chords: Gauss points between the two lie just outside the master facet, where its shape
+/// functions go on.
+///
+/// Derivatives are those of this very computation: dM/d(x_a, n_a, y_b).
+#pragma once
+
+#include "tribogel/contact/quad_facet.hpp"
+#include "tribogel/contact/report.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tribogel
+{
+
+/// Points of a master facet's sides beyond its corners in parameter space: 1 for order 1, 2 (the midside node) for
+/// order 2.
+template <int order> inline constexpr int outline_chords = order;
+
+/// How far a master facet is extended beyond a side that is the surface's edge, in eta (the facet has length 2).
+inline constexpr double edge_extension = 1;
+
+template <int order> struct QuadPair {
+  QuadPoints<order> x, n, y;     ///< slave positions and normals, master positions
+  std::array<bool, 4> on_edge{}; ///< sides of the master facet that are extended
+};
+
+template <int order> struct QuadPairMortar {
+  static constexpr int nodes = tensor_nodes<2, order>;
+  using Matrix = Eigen::Matrix<double, nodes, nodes, Eigen::RowMajor>;
+  MortarStatus status = MortarStatus::ok;
+  double covered = 0;        ///< area in xi: 4 when summed over the master surface
+  double overhang = 0;       ///< reference area beyond the master's edge [mm^2]
+  Matrix M = Matrix::Zero(); ///< [slave node][master node] [mm^2]
+  /// dM, row a nodes + b; columns: slave positions, normals, master positions, three components each. Empty unless
+  /// asked for.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> dM;
+};
+
+/// Gauss points on a triangle as barycentric weights (product rule on the collapsed square); weights add up to 1. Exact
+/// to degree 2 n - 2.
+template <int n> struct TriangleRule {
+  std::array<std::array<double, 3>, n * n> point;
+  std::array<double, n * n> weight;
+};
+
+template <int n> TriangleRule<n> triangle_rule()
+{
+  const auto line = gauss_rule<n>();
+  TriangleRule<n> rule;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const double p = 0.5 * (1 + line.point[i]), q = 0.5 * (1 - p) * (1 + line.point[j]);
+      rule.point[i * n + j] = {1 - p - q, p, q};
+      rule.weight[i * n + j] = 0.5 * line.weight[i] * line.weight[j] * (1 - p);
+    }
+  return rule;
+}
+
+namespace quad_mortar
+{
+
+/// Degree of psi_a N_b on flat parallelograms, and of psi_a J on any facet: 4 and 8.
+template <int order> inline constexpr int rule_points = 2 * order + 1;
+
+/// The parts of a projection's linearisation: solves x(xi) + g n(xi) - y(eta) = 0.
+constexpr double projection_tolerance = 1e-9; // of the last step; what is left is its square
+constexpr int most_iterations = 30;
+
+template <int order> class Kernel
+{
+public:
+  static constexpr int nodes = tensor_nodes<2, order>, inputs = 9 * nodes;
+  using Result = QuadPairMortar<order>;
+
+  Kernel(const QuadMeasure<order> &slave_measure, const QuadPair<order> &facet_pair, bool derivatives)
+      : measure(slave_measure), pair(facet_pair), with_derivatives(derivatives)
+  {
+  }
+
+  Result integrate()
+  {
+    if (!project_outline()) return out;
+    clip();
+    if (polygon.size() < 3) return out;
+    if (with_derivatives) {
+      out.dM.setZero(nodes * nodes, inputs);
+      by_vertex.assign(polygon.size(), ByVertex::Zero());
+    }
+    for (std::size_t k = 1; k + 1 < polygon.size(); ++k) add_triangle({0, k, k + 1});
+    if (with_derivatives)
+      for (std::size_t k = 0; k < polygon.size(); ++k)
+        if (polygon[k].moves) out.dM.noalias() += by_vertex[k] * polygon[k].d;
+    return out;
+  }
+
+private:
+  using Slope = Eigen::Matrix<double, 2, inputs, Eigen::RowMajor>;
+  using ByVertex = Eigen::Matrix<double, nodes * nodes, 2, Eigen::RowMajor>;
+  struct Vertex {
+    Vector2<double> xi = Vector2<double>::Zero();
+    bool moves = false; ///< has derivatives
+    Slope d;            ///< d xi / d inputs, set if it moves
+  };
+
+  const QuadMeasure<order> &measure;
+  const QuadPair<order> &pair;
+  bool with_derivatives;
+  std::vector<Vertex> polygon, clipped;
+  std::vector<ByVertex> by_vertex; ///< dM / d xi of each vertex
+  std::array<double, 2> last_eta{};
+  Result out;
+
+  /// Whether the master's outline meets the slave facet's square, seen from the front.
+  bool project_outline()
+  {
+    constexpr int chords = outline_chords<order>;
+    std::array<double, 4> end{-1, 1, -1, 1};
+    for (int side = 0; side < 4; ++side)
+      if (pair.on_edge[side]) end[side] += side % 2 == 0 ? -edge_extension : edge_extension;
+    const double corner[5][2] = {
+        {end[0], end[2]}, {end[1], end[2]}, {end[1], end[3]}, {end[0], end[3]}, {end[0], end[2]}};
+    polygon.clear();
+    Vector2<double> low(2, 2), high(-2, -2);
+    for (int side = 0; side < 4; ++side)
+      for (int k = 0; k < chords; ++k) {
+        const double t = static_cast<double>(k) / chords;
+        const std::array<double, 2> eta{(1 - t) * corner[side][0] + t * corner[side + 1][0],
+                                        (1 - t) * corner[side][1] + t * corner[side + 1][1]};
+        Vertex vertex;
+        if (!project_on_slave(eta, vertex)) return false;
+        low = low.cwiseMin(vertex.xi);
+        high = high.cwiseMax(vertex.xi);
+        polygon.push_back(std::move(vertex));
+      }
+    const bool apart = low[0] >= 1 || low[1] >= 1 || high[0] <= -1 || high[1] <= -1;
+    return !apart && area_of(polygon) < 0; // out of the master is into the slave: its outline runs clockwise
+  }
+
+  static double cross(const Vector2<double> &a, const Vector2<double> &b) { return a[0] * b[1] - a[1] * b[0]; }
+
+  static double area_of(const std::vector<Vertex> &vertices)
+  {
+    double sum = 0;
+    for (std::size_t k = 1; k + 1 < vertices.size(); ++k)
+      sum += cross(vertices[k].xi - vertices[0].xi, vertices[k + 1].xi - vertices[0].xi);
+    return 0.5 * sum;
+  }
+
+  /// Newton's method for (xi, g). A point far from the facet may have no projection: it is then no neighbour of it.
+  bool project_on_slave(const std::array<double, 2> &eta, Vertex &vertex) const
+  {
+    const auto master = quad_shape<order>(eta);
+    const Vector3<double> y = interpolate(master.N, pair.y);
+    double g = 0;
+    std::array<double, 2> xi{0, 0};
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      const auto shape = quad_shape<order>(xi);
+      const Vector3<double> normal = interpolate(shape.N, pair.n);
+      Matrix3<double> A;
+      for (int j = 0; j < 2; ++j) A.col(j) = tangent(shape.dN, pair.x, j) + g * tangent(shape.dN, pair.n, j);
+      A.col(2) = normal;
+      const Matrix3<double> inverse = A.inverse();
+      const Vector3<double> step = inverse * (y - interpolate(shape.N, pair.x) - g * normal);
+      if (!step.allFinite()) return false;
+      xi[0] += step[0];
+      xi[1] += step[1];
+      g += step[2];
+      if (std::abs(step[0]) > projection_tolerance || std::abs(step[1]) > projection_tolerance) continue;
+      vertex.xi = {xi[0], xi[1]};
+      vertex.moves = with_derivatives;
+      if (!with_derivatives) return true;
+      const Eigen::Matrix<double, 2, 3> B = inverse.topRows<2>();
+      for (int a = 0; a < nodes; ++a) {
+        vertex.d.template middleCols<3>(3 * a) = -shape.N[a] * B;
+        vertex.d.template middleCols<3>(3 * (nodes + a)) = -g * shape.N[a] * B;
+        vertex.d.template middleCols<3>(3 * (2 * nodes + a)) = master.N[a] * B;
+      }
+      return true;
+    }
+    return false;
+  }
+
+  /// Sutherland and Hodgman's algorithm against the sides of the square.
+  void clip()
+  {
+    for (int axis = 0; axis < 2; ++axis)
+      for (const double side : {-1.0, 1.0}) {
+        clipped.clear();
+        for (std::size_t k = 0; k < polygon.size(); ++k) {
+          const Vertex &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
+          const double inside_p = 1 - side * p.xi[axis], inside_q = 1 - side * q.xi[axis];
+          if (inside_p >= 0) clipped.push_back(p);
+          if ((inside_p >= 0) != (inside_q >= 0)) clipped.push_back(between(p, q, inside_p, inside_q, axis, side));
+        }
+        std::swap(polygon, clipped);
+      }
+  }
+
+  Vertex between(const Vertex &p, const Vertex &q, double inside_p, double inside_q, int axis, double side) const
+  {
+    Vertex v;
+    const double t = inside_p / (inside_p - inside_q);
+    v.xi = p.xi + t * (q.xi - p.xi);
+    v.xi[axis] = side;
+    v.moves = p.moves || q.moves;
+    if (!v.moves) return v;
+    const Slope none = Slope::Zero(), &dp = p.moves ? p.d : none, &dq = q.moves ? q.d : none;
+    const double scale = side / ((inside_p - inside_q) * (inside_p - inside_q));
+    const Eigen::Matrix<double, 1, inputs> dt = scale * (inside_q * dp.row(axis) - inside_p * dq.row(axis));
+    v.d = (1 - t) * dp + t * dq + (q.xi - p.xi) * dt;
+    v.d.row(axis).setZero();
+    return v;
+  }
+
+  /// The master's point that the slave's normal line at xi meets.
+  struct Meeting {
+    QuadShape<order> shape;            ///< of the master
+    double g = 0;                      ///< along the normal [mm]
+    Eigen::Matrix<double, 2, 3> slope; ///< d eta / d x [1/mm]
+    bool found = false;
+  };
+  Meeting meet(const Vector3<double> &point, const Vector3<double> &normal)
+  {
+    Meeting at;
+    std::array<double, 2> eta = last_eta;
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      at.shape = quad_shape<order>(eta);
+      Matrix3<double> A;
+      for (int j = 0; j < 2; ++j) A.col(j) = tangent(at.shape.dN, pair.y, j);
+      A.col(2) = -normal;
+      const Matrix3<double> inverse = A.inverse();
+      const Vector3<double> step = inverse * (point + at.g * normal - interpolate(at.shape.N, pair.y));
+      if (!step.allFinite()) return at;
+      eta[0] += step[0];
+      eta[1] += step[1];
+      at.g += step[2];
+      if (std::abs(step[0]) > projection_tolerance || std::abs(step[1]) > projection_tolerance) continue;
+      at.shape = quad_shape<order>(eta);
+      at.slope = inverse.template topRows<2>();
+      at.found = true;
+      last_eta = eta;
+      return at;
+    }
+    return at;
+  }
+
+  void add_triangle(const std::array<std::size_t, 3> &corner)
+  {
+    static const auto rule = triangle_rule<rule_points<order>>();
+    const Vector2<double> &p = polygon[corner[0]].xi, e1 = polygon[corner[1]].xi - p, e2 = polygon[corner[2]].xi - p;
+    const double area = -0.5 * cross(e1, e2); // positive: the outline runs clockwise
+    if (area == 0 && !with_derivatives) return;
+    out.covered += area;
+    typename Result::Matrix mean = Result::Matrix::Zero();
+    for (std::size_t q = 0; q < rule.weight.size(); ++q) add_point(corner, rule.point[q], rule.weight[q], area, mean);
+    out.M += area * mean;
+    if (!with_derivatives) return;
+    // d area / d vertex: half the opposite edge, turned
+    const Vector2<double> edge[3] = {polygon[corner[2]].xi - polygon[corner[1]].xi, -e2, e1};
+    for (int k = 0; k < 3; ++k) {
+      const Vector2<double> slope(0.5 * edge[k][1], -0.5 * edge[k][0]);
+      const Eigen::Map<const Eigen::Matrix<double, nodes * nodes, 1>> all(mean.data());
+      by_vertex[corner[k]].noalias() += all * slope.transpose();
+    }
+  }
+
+  void add_point(const std::array<std::size_t, 3> &corner, const std::array<double, 3> &share, double rule_weight,
+                 double area, typename Result::Matrix &mean)
+  {
+    Vector2<double> at = Vector2<double>::Zero();
+    for (int k = 0; k < 3; ++k) at += share[k] * polygon[corner[k]].xi;
+    const std::array<double, 2> xi{at[0], at[1]};
+    const auto shape = quad_shape<order>(xi);
+    const Vector3<double> point = interpolate(shape.N, pair.x), normal = interpolate(shape.N, pair.n);
+    const Meeting master = meet(point, normal);
+    if (!master.found) {
+      out.status = MortarStatus::no_projection;
+      return;
+    }
+    const auto J = measure.weight(xi);
+    const auto psi = measure.basis(shape.N);
+    for (int a = 0; a < nodes; ++a)
+      for (int b = 0; b < nodes; ++b) mean(a, b) += rule_weight * J.value * psi[a] * master.shape.N[b];
+    if (is_beyond_edge(last_eta)) out.overhang += rule_weight * area * J.value;
+    if (with_derivatives) add_point_slope(corner, share, rule_weight * area, shape, psi, J, master);
+  }
+
+  bool is_beyond_edge(const std::array<double, 2> &eta) const
+  {
+    return (pair.on_edge[0] && eta[0] < -1) || (pair.on_edge[1] && eta[0] > 1) || (pair.on_edge[2] && eta[1] < -1) ||
+           (pair.on_edge[3] && eta[1] > 1);
+  }
+
+  /// With W = weight J psi_a: through eta of the data, W dN_b/deta deta/dx (N_c dx_c + g N_c dn_c - N_c(eta) dy_c);
+  /// through xi, which moves with the triangle's corners.
+  void add_point_slope(const std::array<std::size_t, 3> &corner, const std::array<double, 3> &share, double weight,
+                       const QuadShape<order> &shape, const std::array<double, nodes> &psi,
+                       const typename QuadMeasure<order>::Weight &J, const Meeting &master)
+  {
+    Vector3<double> along[2]; // d (x + g n) / d xi
+    for (int j = 0; j < 2; ++j) along[j] = tangent(shape.dN, pair.x, j) + master.g * tangent(shape.dN, pair.n, j);
+    std::array<Vector3<double>, nodes> dN; // of the master, by the position of the meeting point
+    for (int b = 0; b < nodes; ++b)
+      dN[b] = (master.shape.dN[b][0] * master.slope.row(0) + master.shape.dN[b][1] * master.slope.row(1)).transpose();
+    for (int a = 0; a < nodes; ++a) {
+      double d_psi[2] = {0, 0};
+      for (int c = 0; c < nodes; ++c)
+        for (int j = 0; j < 2; ++j) d_psi[j] += measure.basis.A(a, c) * shape.dN[c][j];
+      const double W = weight * J.value * psi[a];
+      for (int b = 0; b < nodes; ++b) {
+        const Vector3<double> by_x = W * dN[b];
+        double *row = out.dM.row(a * nodes + b).data();
+        for (int c = 0; c < nodes; ++c)
+          for (int i = 0; i < 3; ++i) {
+            const double d = shape.N[c] * by_x[i];
+            row[3 * c + i] += d;
+            row[3 * (nodes + c) + i] += master.g * d;
+            row[3 * (2 * nodes + c) + i] -= master.shape.N[c] * by_x[i];
+          }
+        Vector2<double> by_xi;
+        for (int j = 0; j < 2; ++j)
+          by_xi[j] = weight * (J.slope[j] * psi[a] + J.value * d_psi[j]) * master.shape.N[b] + by_x.dot(along[j]);
+        for (int k = 0; k < 3; ++k) by_vertex[corner[k]].row(a * nodes + b) += share[k] * by_xi.transpose();
+      }
+    }
+  }
+};
+
+} // namespace quad_mortar
+
+template <int order>
+QuadPairMortar<order> quad_pair_mortar(const QuadMeasure<order> &slave, const QuadPair<order> &pair, bool derivatives)
+{
+  return quad_mortar::Kernel<order>(slave, pair, derivatives).integrate();
+}
+
+} // namespace tribogel

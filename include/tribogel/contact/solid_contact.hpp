@@ -1,0 +1,456 @@
+/// The contact operator of two bodies in space: slave surface (lower face of the top body) on master surface (upper
+/// face of the bottom body), each in the frame of its plate. Everything is evaluated in the slave's frame, which turns
+/// with the top plate about its axis (THEORY, section 3.6):
+///
+///     x = X + u + travel e_z,    y = R (X + u) - Q_s^T c,    R = Q_s^T Q_m,    Q the plates' rotations, c the axis
+///
+/// With D = D_a and M_m = M_am, constant lambda in this frame where nothing changes:
+///
+///     gap = n . (sum_m M_m y_m / D - x)
+///     v   = (Omega_s - Omega_m) e_z x x - Omega_m e_z x Q_s^T c + du/dt + travel rate - sum_m M_m R du_m/dt / D
+///     residual rows (internal minus external force):  slave -D lambda,  master +M_m R^T lambda,  condition D C
+///
+/// Both frames' velocities are taken at the slave's point: a common rotation is exactly no sliding, however far the
+/// plates turn.
+///
+/// Each holds both surfaces whole, so any process can evaluate any of the slave nodes. The Jacobian comes facet by
+/// facet, as blocks that add up.
+#pragma once
+
+#include "tribogel/contact/condition_slope.hpp"
+#include "tribogel/contact/quad_mortar.hpp"
+#include "tribogel/contact/quad_normals.hpp"
+#include "tribogel/contact/quad_search.hpp"
+#include "tribogel/contact/solid_geometry.hpp"
+#include "tribogel/contact/state.hpp"
+
+#include <limits>
+#include <span>
+
+namespace tribogel
+{
+
+class SolidContact
+{
+public:
+  using Pairs = std::vector<std::pair<int, int>>;
+
+  SolidContact() = default;
+  explicit SolidContact(SolidGeometry reference) : geometry(std::move(reference)) {}
+
+  const SolidGeometry &reference() const { return geometry; }
+
+  /// Sorted pairs of facets for `update`; they remain sufficient while the surfaces slide by less than margin [mm].
+  Pairs candidate_pairs(const ContactState<double> &state, double margin) const
+  {
+    const Placed at = place(state);
+    std::vector<Vector3<double>> n;
+    for (int a = 0; a < geometry.slave_surface.node_count(); ++a)
+      n.push_back(quad_normal(geometry.slave_surface, a, at.x, false).n);
+    return tribogel::candidate_pairs(geometry.slave_surface, at.x, n, geometry.master_surface, at.y, margin);
+  }
+
+  /// Evaluate the mortar integrals that the slave nodes first <= a < last need (all by default).
+  MortarReport update(const ContactState<double> &state, const Pairs &pairs, bool derivatives, int first = 0,
+                      int last = -1);
+
+  /// Residual of slave node a. Without a multiplier the row is lambda = 0.
+  template <FrictionLaw<double> Law> void node(int a, const Law &law, NodeBlock &block) const;
+
+  /// d residual / d (u, lambda), with d rate / d u = shift, of the nodes given to update(derivatives = true), in blocks
+  /// for `emit`.
+  template <class Law, class Emit> void jacobian(const Law &law, const Emit &emit) const;
+
+  /// Rows and columns of the blocks that `jacobian` can emit as long as `pairs` are sufficient.
+  template <class Emit> void pattern(const Pairs &pairs, int first, int last, const Emit &emit) const;
+
+  template <FrictionLaw<double> Law> NodeResult result(int a, const Law &law) const;
+
+  /// Force along z and torque about the slave's axis on the slave's node a [N, N mm].
+  std::pair<double, double> resultant(int a) const
+  {
+    if (!geometry.nodes[a].carries) return {0, 0};
+    const Vector3<double> force = geometry.nodes[a].D * now.multiplier[a];
+    return {force[2], placed.x[a].cross(force)[2]};
+  }
+
+private:
+  struct Placed {
+    std::vector<Vector3<double>> x, y;
+    Matrix3<double> R;     ///< from the master's frame to the slave's
+    Vector3<double> shift; ///< - Q_s^T c
+  };
+  struct PairPart {
+    int master;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> M, dM; ///< as QuadPairMortar
+  };
+  /// Row a of the mortar matrix and what follows from it.
+  struct NodeContact {
+    std::vector<int> masters;
+    std::vector<double> M; ///< [mm^2]
+    double gap = 0;        ///< [mm]
+    Vector3<double> arm;   ///< from x to the projected point [mm]
+    Vector3<double> velocity;
+  };
+
+  SolidGeometry geometry;
+  ContactState<double> now;
+  Placed placed;
+  int first_node = 0, last_node = 0;
+  std::vector<QuadNormal> normal;
+  std::vector<std::vector<PairPart>> facets; ///< of each slave facet, those that were asked for
+
+  static Matrix3<double> turned(double angle)
+  {
+    Matrix3<double> Q = Matrix3<double>::Identity();
+    Q(0, 0) = Q(1, 1) = std::cos(angle);
+    Q(1, 0) = std::sin(angle);
+    Q(0, 1) = -Q(1, 0);
+    return Q;
+  }
+
+  Placed place(const ContactState<double> &state) const
+  {
+    Placed at;
+    at.R = turned(state.master.rotation - state.slave.rotation);
+    at.shift = turned(-state.slave.rotation) * Vector3<double>(-state.slave_axis[0], -state.slave_axis[1], 0);
+    for (std::size_t a = 0; a < geometry.slave.X.size(); ++a) {
+      at.x.push_back(geometry.slave.X[a] + state.slave.u[a]);
+      at.x.back()[2] += state.slave.travel;
+    }
+    for (std::size_t b = 0; b < geometry.master.X.size(); ++b) {
+      at.y.push_back(at.R * (geometry.master.X[b] + state.master.u[b]) + at.shift);
+      at.y.back()[2] += state.master.travel;
+    }
+    return at;
+  }
+
+  /// Whether slave facet f belongs to a node of this range.
+  bool is_wanted(int f, int first, int last) const
+  {
+    for (int b = 0; b < geometry.slave_surface.facet_nodes(); ++b) {
+      const int a = geometry.slave_surface.facets[f][b];
+      if (a >= first && a < last) return true;
+    }
+    return false;
+  }
+
+  template <int order>
+  void integrate(int f, std::span<const std::pair<int, int>> pairs, bool derivatives, MortarReport &report,
+                 double &overhang);
+  NodeContact contact_of(int a) const;
+  ContactPoint<double> point_of(int a, const NodeContact &contact) const
+  {
+    return {now.multiplier[a], normal[a].n, contact.gap, contact.velocity, 1};
+  }
+  ContactScale scale_of(int a) const { return {geometry.nodes[a].c_N, geometry.nodes[a].c_N / now.stick_rate}; }
+  double current_area(int a) const;
+  template <class Emit>
+  void emit_node(int a, const NodeContact &contact, const Eigen::Matrix<double, 3, 10> &slope, const Emit &emit) const;
+  template <class Emit>
+  void emit_facet(int f, const std::vector<Eigen::Matrix<double, 3, 10>> &slope, const Emit &emit) const;
+  std::vector<ContactUnknown> neighbourhood(int f) const;
+};
+
+inline MortarReport SolidContact::update(const ContactState<double> &state, const Pairs &pairs, bool derivatives,
+                                         int first, int last)
+{
+  const QuadSurface &surface = geometry.slave_surface;
+  now = state;
+  placed = place(state);
+  first_node = first;
+  last_node = last < 0 ? surface.node_count() : last;
+  normal.clear();
+  for (int a = 0; a < surface.node_count(); ++a) normal.push_back(quad_normal(surface, a, placed.x, derivatives));
+  facets.assign(static_cast<std::size_t>(surface.facet_count()), {});
+  MortarReport report;
+  for (int f = 0; f < surface.facet_count(); ++f) {
+    if (!is_wanted(f, first_node, last_node)) continue;
+    const auto run = std::equal_range(pairs.begin(), pairs.end(), std::pair(f, 0),
+                                      [](const auto &l, const auto &r) { return l.first < r.first; });
+    const std::span<const std::pair<int, int>> own(run.first, run.second);
+    double overhang = 0;
+    if (surface.order == 1)
+      integrate<1>(f, own, derivatives, report, overhang);
+    else
+      integrate<2>(f, own, derivatives, report, overhang);
+    const int counts_at = surface.facets[f][0];
+    if (counts_at >= first_node && counts_at < last_node) report.overhang += overhang;
+  }
+  return report;
+}
+
+template <int order>
+void SolidContact::integrate(int f, std::span<const std::pair<int, int>> pairs, bool derivatives, MortarReport &report,
+                             double &overhang)
+{
+  constexpr double coverage_tolerance = 1e-8; // of the square's area 4
+  const auto &measure = std::get<std::vector<QuadMeasure<order>>>(geometry.measures)[f];
+  QuadPair<order> pair;
+  pair.x = geometry.slave_surface.on_facet<order>(f, placed.x);
+  for (std::size_t b = 0; b < pair.n.size(); ++b) pair.n[b] = normal[geometry.slave_surface.facets[f][b]].n;
+  MortarStatus status = MortarStatus::ok;
+  double covered = 0;
+  for (const auto &[slave, master] : pairs) {
+    pair.y = geometry.master_surface.on_facet<order>(master, placed.y);
+    pair.on_edge = geometry.master_surface.on_edge[master];
+    auto part = quad_pair_mortar<order>(measure, pair, derivatives);
+    if (status == MortarStatus::ok) status = part.status;
+    if (part.covered == 0) continue;
+    covered += part.covered;
+    overhang += part.overhang;
+    facets[f].push_back({master, part.M, std::move(part.dM)});
+  }
+  if (status == MortarStatus::ok && !(std::abs(covered - 4) <= 4 * coverage_tolerance))
+    status = MortarStatus::uncovered;
+  if (status != MortarStatus::ok && report.status == MortarStatus::ok) report.status = status, report.facet = f;
+}
+
+inline SolidContact::NodeContact SolidContact::contact_of(int a) const
+{
+  NodeContact contact;
+  for (const auto &[f, local] : geometry.slave_surface.neighbours[a])
+    for (const PairPart &part : facets[f])
+      for (int b = 0; b < geometry.master_surface.facet_nodes(); ++b) {
+        const int m = geometry.master_surface.facets[part.master][b];
+        const auto known = std::find(contact.masters.begin(), contact.masters.end(), m);
+        const auto k = static_cast<std::size_t>(known - contact.masters.begin());
+        if (known == contact.masters.end()) contact.masters.push_back(m), contact.M.push_back(0);
+        contact.M[k] += part.M(local, b);
+      }
+  const double D = geometry.nodes[a].D, spin = now.slave.rotation_rate - now.master.rotation_rate;
+  const Vector3<double> &x = placed.x[a];
+  contact.arm = -x;
+  contact.velocity = now.slave.rate[a];
+  contact.velocity += Vector3<double>(-spin * x[1], spin * x[0], now.slave.travel_rate - now.master.travel_rate);
+  contact.velocity += now.master.rotation_rate * Vector3<double>(-placed.shift[1], placed.shift[0], 0);
+  Vector3<double> master_rate = Vector3<double>::Zero();
+  for (std::size_t k = 0; k < contact.masters.size(); ++k) {
+    contact.arm += contact.M[k] / D * placed.y[contact.masters[k]];
+    master_rate += contact.M[k] / D * now.master.rate[contact.masters[k]];
+  }
+  contact.velocity -= placed.R * master_rate;
+  contact.gap = normal[a].n.dot(contact.arm);
+  return contact;
+}
+
+template <FrictionLaw<double> Law> void SolidContact::node(int a, const Law &law, NodeBlock &block) const
+{
+  const auto &constants = geometry.nodes[a];
+  const Vector3<double> &lambda = now.multiplier[a];
+  block.slave_nodes = {a};
+  block.slave_rows = 1;
+  block.master_nodes.clear();
+  block.status = ContactStatus::open;
+  if (!constants.carries) {
+    block.residual.setZero(6);
+    block.residual.tail<3>() = constants.extent * lambda;
+    return;
+  }
+  const NodeContact contact = contact_of(a);
+  const auto condition = contact_condition<double>(point_of(a, contact), scale_of(a), law);
+  const Vector3<double> on_master = placed.R.transpose() * lambda;
+  const auto masters = static_cast<Eigen::Index>(contact.masters.size());
+  block.master_nodes = contact.masters;
+  block.status = condition.status;
+  block.residual.resize(3 * masters + 6);
+  block.residual.head<3>() = -constants.D * lambda;
+  for (Eigen::Index k = 0; k < masters; ++k) block.residual.segment<3>(3 + 3 * k) = contact.M[k] * on_master;
+  block.residual.tail<3>() = constants.D * condition.residual;
+}
+
+template <class Law, class Emit> void SolidContact::jacobian(const Law &law, const Emit &emit) const
+{
+  std::vector<Eigen::Matrix<double, 3, 10>> slope(normal.size());
+  for (int a = first_node; a < last_node; ++a) {
+    if (!geometry.nodes[a].carries) {
+      emit(ContactBlock{{{ContactUnknown::multiplier, a}},
+                        {{ContactUnknown::multiplier, a}},
+                        geometry.nodes[a].extent * Matrix3<double>::Identity()});
+      continue;
+    }
+    const NodeContact contact = contact_of(a);
+    slope[a] = geometry.nodes[a].D * condition_slope<10>(point_of(a, contact), scale_of(a), law);
+    emit_node(a, contact, slope[a], emit);
+  }
+  for (std::size_t f = 0; f < facets.size(); ++f)
+    if (!facets[f].empty()) emit_facet(static_cast<int>(f), slope, emit);
+}
+
+/// What depends on the node's own unknowns, normal and multiplier, and on the masters with the mortar integrals fixed.
+template <class Emit>
+void SolidContact::emit_node(int a, const NodeContact &contact, const Eigen::Matrix<double, 3, 10> &slope,
+                             const Emit &emit) const
+{
+  using Kind = ContactUnknown;
+  const double D = geometry.nodes[a].D, spin = now.slave.rotation_rate - now.master.rotation_rate;
+  const Vector3<double> by_gap = slope.col(3);
+  const Matrix3<double> by_velocity = slope.middleCols<3>(4), by_normal = slope.rightCols<3>();
+  emit(ContactBlock{{{Kind::slave, a}}, {{Kind::multiplier, a}}, -D * Matrix3<double>::Identity()});
+
+  const auto masters = static_cast<Eigen::Index>(contact.masters.size());
+  ContactBlock forces, conditions;
+  forces.columns = {{Kind::multiplier, a}};
+  conditions.rows = {{Kind::multiplier, a}};
+  forces.values.resize(3 * masters, 3);
+  for (Eigen::Index k = 0; k < masters; ++k) {
+    forces.rows.push_back({Kind::master, contact.masters[k]});
+    forces.values.middleRows<3>(3 * k) = contact.M[k] * placed.R.transpose();
+  }
+  emit(forces);
+
+  conditions.columns = {{Kind::multiplier, a}, {Kind::slave, a}};
+  for (const auto &[b, d] : normal[a].d) conditions.columns.push_back({Kind::slave, b});
+  for (int m : contact.masters) conditions.columns.push_back({Kind::master, m});
+  conditions.values.resize(3, 3 * static_cast<Eigen::Index>(conditions.columns.size()));
+  Matrix3<double> own = now.shift * Matrix3<double>::Identity();
+  own(0, 1) -= spin;
+  own(1, 0) += spin;
+  conditions.values.leftCols<3>() = slope.leftCols<3>();
+  conditions.values.middleCols<3>(3) = by_velocity * own - by_gap * normal[a].n.transpose();
+  Eigen::Index column = 6;
+  const Matrix3<double> through_normal = by_normal + by_gap * contact.arm.transpose();
+  for (const auto &[b, d] : normal[a].d) {
+    conditions.values.middleCols<3>(column) = through_normal * d;
+    column += 3;
+  }
+  const Matrix3<double> through_master = (by_gap * normal[a].n.transpose() - now.shift * by_velocity) * placed.R / D;
+  for (Eigen::Index k = 0; k < masters; ++k)
+    conditions.values.middleCols<3>(column + 3 * k) = contact.M[k] * through_master;
+  emit(conditions);
+}
+
+/// The slave nodes on which the mortar integrals of facet f depend: its own, then those of its nodal normals.
+inline std::vector<ContactUnknown> SolidContact::neighbourhood(int f) const
+{
+  const QuadSurface &surface = geometry.slave_surface;
+  std::vector<ContactUnknown> nodes;
+  const auto add = [&](int a) {
+    const ContactUnknown entry{ContactUnknown::slave, a};
+    if (std::find(nodes.begin(), nodes.end(), entry) == nodes.end()) nodes.push_back(entry);
+  };
+  for (int b = 0; b < surface.facet_nodes(); ++b) add(surface.facets[f][b]);
+  for (int b = 0; b < surface.facet_nodes(); ++b)
+    for (const auto &at : surface.neighbours[surface.facets[f][b]])
+      for (int c = 0; c < surface.facet_nodes(); ++c) add(surface.facets[at.facet][c]);
+  return nodes;
+}
+
+/// What depends on the mortar integrals of slave facet f, pair by pair.
+template <class Emit>
+void SolidContact::emit_facet(int f, const std::vector<Eigen::Matrix<double, 3, 10>> &slope, const Emit &emit) const
+{
+  using Kind = ContactUnknown;
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const QuadSurface &surface = geometry.slave_surface, &other = geometry.master_surface;
+  const int nodes = surface.facet_nodes();
+  const std::vector<ContactUnknown> around = neighbourhood(f);
+  const auto place_of = [&](int a) {
+    return 3 * (std::find(around.begin(), around.end(), ContactUnknown{Kind::slave, a}) - around.begin());
+  };
+  const auto slaves = static_cast<Eigen::Index>(around.size());
+  std::vector<int> own; // local numbers of the nodes that are asked for
+  for (int b = 0; b < nodes; ++b) {
+    const int a = surface.facets[f][b];
+    if (a >= first_node && a < last_node && geometry.nodes[a].carries) own.push_back(b);
+  }
+  // Every derivative of a normal is used by all pairs.
+  Matrix by_position = Matrix::Zero(3 * nodes, 3 * slaves);
+  for (int b = 0; b < nodes; ++b)
+    for (const auto &[c, d] : normal[surface.facets[f][b]].d) by_position.block<3, 3>(3 * b, place_of(c)) += d;
+
+  for (const PairPart &part : facets[f]) {
+    ContactBlock block;
+    block.columns = around;
+    Matrix combine = Matrix::Zero(3 * nodes + 3 * static_cast<Eigen::Index>(own.size()), nodes * nodes);
+    for (int m = 0; m < nodes; ++m) {
+      const int master = other.facets[part.master][m];
+      block.rows.push_back({Kind::master, master});
+      block.columns.push_back({Kind::master, master});
+      const Vector3<double> rate = placed.R * now.master.rate[master];
+      for (std::size_t k = 0; k < own.size(); ++k) {
+        const int a = surface.facets[f][own[k]];
+        const double D = geometry.nodes[a].D;
+        combine.block<3, 1>(3 * m, own[k] * nodes + m) = placed.R.transpose() * now.multiplier[a];
+        combine.block<3, 1>(3 * nodes + 3 * static_cast<Eigen::Index>(k), own[k] * nodes + m) =
+            (normal[a].n.dot(placed.y[master]) * slope[a].col(3) - slope[a].middleCols<3>(4) * rate) / D;
+      }
+    }
+    for (int b : own) block.rows.push_back({Kind::multiplier, surface.facets[f][b]});
+    const Matrix raw = combine * part.dM; // by slave positions, normals, master positions
+    block.values.setZero(raw.rows(), 3 * (slaves + nodes));
+    block.values.leftCols(3 * slaves).noalias() = raw.middleCols(3 * nodes, 3 * nodes) * by_position;
+    block.values.leftCols(3 * nodes) += raw.leftCols(3 * nodes); // `around` begins with the facet's own nodes
+    for (int m = 0; m < nodes; ++m)
+      block.values.middleCols<3>(3 * (slaves + m)) = raw.middleCols<3>(3 * (2 * nodes + m)) * placed.R;
+    emit(block);
+  }
+}
+
+template <class Emit> void SolidContact::pattern(const Pairs &pairs, int first, int last, const Emit &emit) const
+{
+  using Kind = ContactUnknown;
+  const QuadSurface &surface = geometry.slave_surface, &other = geometry.master_surface;
+  for (int a = first; a < last; ++a) {
+    emit(ContactBlock{{{Kind::multiplier, a}}, {{Kind::multiplier, a}}, {}});
+    if (geometry.nodes[a].carries) emit(ContactBlock{{{Kind::slave, a}}, {{Kind::multiplier, a}}, {}});
+  }
+  for (const auto &[f, m] : pairs) {
+    if (!is_wanted(f, first, last)) continue;
+    ContactBlock all, forces;
+    all.columns = neighbourhood(f);
+    for (int b = 0; b < other.facet_nodes(); ++b) {
+      const ContactUnknown master{Kind::master, other.facets[m][b]};
+      all.rows.push_back(master);
+      all.columns.push_back(master);
+      forces.rows.push_back(master);
+    }
+    for (int b = 0; b < surface.facet_nodes(); ++b) {
+      const int a = surface.facets[f][b];
+      if (a < first || a >= last || !geometry.nodes[a].carries) continue;
+      all.rows.push_back({Kind::multiplier, a});
+      forces.columns.push_back({Kind::multiplier, a});
+    }
+    emit(all);
+    if (!forces.columns.empty()) emit(forces);
+  }
+}
+
+/// int N_a over the current surface [mm^2].
+inline double SolidContact::current_area(int a) const
+{
+  double area = 0;
+  const auto add = [&]<int order>(const QuadSurface::FacetNode &at) {
+    static const auto rule = gauss_rule<order + 1>();
+    const QuadPoints<order> x = geometry.slave_surface.on_facet<order>(at.facet, placed.x);
+    for (int q = 0; q < tensor_nodes<2, order>; ++q) {
+      const int i = q % (order + 1), j = q / (order + 1);
+      const auto shape = tensor_shape<2, order>({rule.point[i], rule.point[j]});
+      const double dA = tangent(shape.dN, x, 0).cross(tangent(shape.dN, x, 1)).norm();
+      area += rule.weight[i] * rule.weight[j] * dA * shape.N[at.local];
+    }
+  };
+  for (const auto &at : geometry.slave_surface.neighbours[a])
+    geometry.slave_surface.order == 1 ? add.operator()<1>(at) : add.operator()<2>(at);
+  return area;
+}
+
+template <FrictionLaw<double> Law> NodeResult SolidContact::result(int a, const Law &law) const
+{
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto &constants = geometry.nodes[a];
+  const Vector3<double> undefined = Vector3<double>::Constant(nan);
+  if (!constants.carries)
+    return {false, ContactStatus::open, constants.D, nan, nan, nan, undefined, undefined, undefined, undefined};
+  const NodeContact contact = contact_of(a);
+  const Vector3<double> &lambda = now.multiplier[a], &n = normal[a].n;
+  const double area = current_area(a);
+  const Vector3<double> cauchy = constants.D / area * lambda;
+  const auto condition = contact_condition<double>(point_of(a, contact), scale_of(a), law);
+  return {true,   condition.status, constants.D,
+          area,   contact.gap,      -cauchy.dot(n),
+          lambda, cauchy,           contact.velocity - contact.velocity.dot(n) * n,
+          n};
+}
+
+} // namespace tribogel

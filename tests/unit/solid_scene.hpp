@@ -1,0 +1,118 @@
+/// Two rectangular surfaces for tests of the contact in space: the slave above, its normal down, on a master that faces
+/// up.
+#pragma once
+
+#include "tribogel/contact/solid_contact.hpp"
+#include "tribogel/friction/polynomial.hpp"
+
+#include <functional>
+#include <random>
+
+namespace tribogel
+{
+
+/// nx x ny facets on [-size/2, size/2]^2, mapped by `shape`; `up`: the normal points to +z.
+inline QuadReference quad_grid(int nx, int ny, double size_x, double size_y, int order, bool up,
+                               const std::function<Vector3<double>(double, double)> &shape)
+{
+  QuadReference surface;
+  const int columns = nx * order + 1, rows = ny * order + 1;
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i)
+      surface.X.push_back(shape(size_x * (static_cast<double>(i) / (columns - 1) - 0.5),
+                                size_y * (static_cast<double>(j) / (rows - 1) - 0.5)));
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i) {
+      std::array<int, 9> facet;
+      facet.fill(-1);
+      for (int b = 0; b <= order; ++b)
+        for (int a = 0; a <= order; ++a) {
+          const int node = (j * order + b) * columns + i * order + a;
+          facet[static_cast<std::size_t>(up ? b * (order + 1) + a : a * (order + 1) + b)] = node;
+        }
+      surface.facets.push_back(facet);
+    }
+  return surface;
+}
+
+struct SolidScene {
+  SolidGeometry geometry;
+  ContactState<double> state;
+
+  SolidScene(QuadReference slave, QuadReference master, int order)
+      : geometry(std::move(slave), std::move(master), {order, 0.7, {}})
+  {
+    state.slave.u.assign(geometry.slave.X.size(), Vector3<double>::Zero());
+    state.slave.rate = state.multiplier = state.slave.u;
+    state.master.u.assign(geometry.master.X.size(), Vector3<double>::Zero());
+    state.master.rate = state.master.u;
+  }
+
+  int slaves() const { return static_cast<int>(geometry.slave.X.size()); }
+  int masters() const { return static_cast<int>(geometry.master.X.size()); }
+
+  /// Residual by unknown: u of the slave's nodes, u of the master's, multipliers.
+  template <class Law> Eigen::VectorXd residual(const Law &law, const SolidContact::Pairs &pairs) const
+  {
+    SolidContact contact(geometry);
+    const MortarReport report = contact.update(state, pairs, false);
+    Eigen::VectorXd F = Eigen::VectorXd::Zero(6 * slaves() + 3 * masters());
+    if (report.status != MortarStatus::ok) return F.setConstant(std::numeric_limits<double>::quiet_NaN());
+    for (int a = 0; a < slaves(); ++a) {
+      NodeBlock block;
+      contact.node(a, law, block);
+      F.segment<3>(3 * a) += block.residual.head<3>();
+      for (std::size_t k = 0; k < block.master_nodes.size(); ++k)
+        F.segment<3>(3 * (slaves() + block.master_nodes[k])) += block.residual.segment<3>(3 + 3 * k);
+      F.segment<3>(3 * (slaves() + masters() + a)) += block.residual.tail<3>();
+    }
+    return F;
+  }
+
+  Eigen::Index row_of(const ContactUnknown &unknown) const
+  {
+    const int offset[3] = {0, slaves(), slaves() + masters()};
+    return 3 * (offset[unknown.kind] + unknown.node);
+  }
+};
+
+/// Curved, distorted, non-matching surfaces in a general state, with the nodal status that `load` suggests: positive
+/// multipliers press.
+inline SolidScene general_solid_scene(int order, double load, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto bump = [](double x, double y) { return 0.03 * x * x - 0.02 * x * y + 0.01 * y; };
+  SolidScene scene(quad_grid(2, 2, 2, 1.6, order, false,
+                             [&](double x, double y) {
+                               return Vector3<double>(x + 0.05 * y * y, y + 0.04 * x * y, bump(x, y) + 0.02 * x);
+                             }),
+                   quad_grid(3, 4, 3.4, 3, order, true,
+                             [&](double x, double y) {
+                               return Vector3<double>(x - 0.1 * y, y + 0.03 * x * x, bump(x, y) - 0.01 * y * y);
+                             }),
+                   order);
+  ContactState<double> &state = scene.state;
+  const auto vary = [&](std::vector<Vector3<double>> &field, double by) {
+    for (auto &v : field)
+      for (int i = 0; i < 3; ++i) v[i] += by * unit(random);
+  };
+  vary(state.slave.u, 0.01);
+  vary(state.master.u, 0.01);
+  vary(state.slave.rate, 0.3);
+  vary(state.master.rate, 0.2);
+  vary(state.multiplier, 0.2);
+  for (auto &lambda : state.multiplier) lambda[2] += load; // the slave's normal points down
+  state.slave.rotation = 0.4;
+  state.master.rotation = 0.1;
+  state.slave.rotation_rate = 0.5;
+  state.master.rotation_rate = -0.2;
+  state.slave.travel = -0.01;
+  state.slave.travel_rate = -0.03;
+  state.slave_axis = {0.07, -0.05};
+  state.shift = 1.7;
+  state.stick_rate = 2.3;
+  return scene;
+}
+
+} // namespace tribogel

@@ -1,0 +1,196 @@
+// The contact operator in space: mortar integrals, balance, frames, Jacobian.
+#include "solid_scene.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace tribogel;
+
+namespace
+{
+
+const PolynomialFriction<double> viscous{{0.3, 0.2}, {0, 1}, 1};
+
+/// int N_m over each node of a flat surface.
+Eigen::VectorXd nodal_areas(const QuadReference &surface, int order)
+{
+  Eigen::VectorXd area = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(surface.X.size()));
+  const auto add = [&]<int k>() {
+    for (const auto &facet : surface.facets) {
+      QuadPoints<k> X;
+      for (std::size_t a = 0; a < X.size(); ++a) X[a] = surface.X[facet[a]];
+      const auto measure = quad_measure<k>(X);
+      for (std::size_t a = 0; a < X.size(); ++a) area[facet[a]] += measure.basis.D[a];
+    }
+  };
+  order == 1 ? add.operator()<1>() : add.operator()<2>();
+  return area;
+}
+
+TEST(SolidContact, RowSumsOfTheMortarMatrixAreItsDiagonal)
+{
+  for (int order : {1, 2}) {
+    SolidScene scene = general_solid_scene(order, 1, 7);
+    SolidContact contact(scene.geometry);
+    const auto pairs = contact.candidate_pairs(scene.state, 0);
+    ASSERT_EQ(contact.update(scene.state, pairs, false).status, MortarStatus::ok) << order;
+    for (int a = 0; a < scene.slaves(); ++a) {
+      NodeBlock block;
+      contact.node(a, viscous, block);
+      Vector3<double> sum = Vector3<double>::Zero();
+      for (std::size_t k = 0; k < block.master_nodes.size(); ++k) sum += block.residual.segment<3>(3 + 3 * k);
+      EXPECT_NEAR(sum.norm(), block.residual.head<3>().norm(), 1e-13) << order << ' ' << a;
+    }
+  }
+}
+
+/// C1: uniform pressure on non-matching rectangles, one turned against the other, is what the master's shape functions
+/// make of a uniform pressure.
+TEST(SolidContact, UniformPressurePassesThePatchTest)
+{
+  for (int order : {1, 2})
+    for (const double turn : {0.0, 0.3}) {
+      const auto flat = [](double x, double y) { return Vector3<double>(x, y, 0); };
+      SolidScene scene(quad_grid(5, 7, 4, 4.2, order, false, flat), quad_grid(5, 4, 2, 1.5, order, true, flat), order);
+      scene.state.slave.rotation = turn;
+      const double p = 0.8; // the smaller surface as master: it is wholly covered, the slave hangs over
+      for (auto &lambda : scene.state.multiplier) lambda = {0, 0, p};
+      SolidContact contact(scene.geometry);
+      contact.update(scene.state, contact.candidate_pairs(scene.state, 0), false);
+      // The extension beyond the edges carries force too: compare the inner node only, all of whose facets are inside.
+      Eigen::VectorXd force = Eigen::VectorXd::Zero(scene.masters());
+      for (int a = 0; a < scene.slaves(); ++a) {
+        NodeBlock block;
+        contact.node(a, viscous, block);
+        for (std::size_t k = 0; k < block.master_nodes.size(); ++k)
+          force[block.master_nodes[k]] += block.residual[3 + 3 * static_cast<Eigen::Index>(k) + 2];
+      }
+      const Eigen::VectorXd area = nodal_areas(scene.geometry.master, order);
+      int compared = 0;
+      for (int m = 0; m < scene.masters(); ++m) {
+        bool inner = true;
+        for (const auto &at : scene.geometry.master_surface.neighbours[m])
+          for (bool edge : scene.geometry.master_surface.on_edge[at.facet]) inner = inner && !edge;
+        if (!inner) continue;
+        ++compared;
+        EXPECT_NEAR(force[m], p * area[m], 1e-13) << order << ' ' << turn;
+      }
+      EXPECT_GE(compared, 6);
+    }
+}
+
+/// The same where the slave lies inside the master: total force, first moments.
+TEST(SolidContact, ForceAndTorqueBalanceOnAFlatInterface)
+{
+  for (int order : {1, 2}) {
+    const auto flat = [](double x, double y) { return Vector3<double>(x, y, 0); };
+    SolidScene scene(quad_grid(2, 3, 1.1, 1.3, order, false, flat), quad_grid(4, 3, 2.6, 2.4, order, true, flat),
+                     order);
+    scene.state = [&] {
+      ContactState<double> state = scene.state;
+      state.slave.rotation = 0.7;
+      state.slave_axis = {0.1, -0.05};
+      for (std::size_t a = 0; a < state.multiplier.size(); ++a)
+        state.multiplier[a] = {0.1 * static_cast<double>(a % 3), -0.2 + 0.05 * static_cast<double>(a % 4), 1.0};
+      return state;
+    }();
+    SolidContact contact(scene.geometry);
+    ASSERT_EQ(contact.update(scene.state, contact.candidate_pairs(scene.state, 0), false).status, MortarStatus::ok);
+    const double c = std::cos(0.7), s = std::sin(0.7);
+    Matrix3<double> Q;
+    Q << c, -s, 0, s, c, 0, 0, 0, 1;
+    const Vector3<double> axis(0.1, -0.05, 0);
+    Vector3<double> force = Vector3<double>::Zero(), moment = force;
+    double size = 0;
+    for (int a = 0; a < scene.slaves(); ++a) {
+      NodeBlock block;
+      contact.node(a, viscous, block);
+      const Vector3<double> f = Q * block.residual.head<3>();
+      force += f;
+      moment += (Q * scene.geometry.slave.X[a] + axis).cross(f);
+      size += f.norm();
+      for (std::size_t k = 0; k < block.master_nodes.size(); ++k) {
+        const Vector3<double> g = block.residual.segment<3>(3 + 3 * k);
+        force += g;
+        moment += scene.geometry.master.X[block.master_nodes[k]].cross(g);
+      }
+    }
+    EXPECT_LT(force.norm(), 1e-13 * size);
+    EXPECT_LT(moment.norm(), 1e-12 * size);
+  }
+}
+
+/// C2: both plates turn together, any number of times; and turning against each other is omega x r at every node.
+TEST(SolidContact, CommonRotationIsNoSlidingAndTheRestIsExact)
+{
+  for (int order : {1, 2}) {
+    SolidScene scene = general_solid_scene(order, 1, 3);
+    ContactState<double> &state = scene.state;
+    for (auto *rates : {&state.slave.rate, &state.master.rate})
+      for (auto &v : *rates) v.setZero();
+    state.slave.travel_rate = 0;
+    state.slave_axis = {0, 0};
+    state.slave.rotation = state.master.rotation = 1000.5;
+    state.slave.rotation_rate = state.master.rotation_rate = 3;
+    SolidContact contact(scene.geometry);
+    ASSERT_EQ(contact.update(state, contact.candidate_pairs(state, 0), false).status, MortarStatus::ok);
+    for (int a = 0; a < scene.slaves(); ++a) EXPECT_EQ(contact.result(a, viscous).velocity.norm(), 0);
+
+    state.slave.rotation_rate = 3.25;
+    ASSERT_EQ(contact.update(state, contact.candidate_pairs(state, 0), false).status, MortarStatus::ok);
+    for (int a = 0; a < scene.slaves(); ++a) {
+      const NodeResult result = contact.result(a, viscous);
+      const Vector3<double> x = scene.geometry.slave.X[a] + state.slave.u[a],
+                            v = 0.25 * Vector3<double>(-x[1], x[0], 0);
+      EXPECT_LT((result.velocity - v + v.dot(result.normal) * result.normal).norm(), 1e-14);
+    }
+  }
+}
+
+/// W1: against central differences, with all nodes open, sticking, slipping, and with a mixture.
+TEST(SolidContact, JacobianIsTheDerivativeInEveryState)
+{
+  struct Case {
+    double load;
+    PolynomialFriction<double> law;
+  };
+  const Case cases[] = {
+      {-2, viscous}, {1, {{50.0}, {0}, 1}}, {1, viscous}, {0.05, viscous}, {1, {{0.4, 0.1}, {1, 2}, 1}}};
+  for (int order : {1, 2})
+    for (const Case &c : cases) {
+      SolidScene scene = general_solid_scene(order, c.load, 11);
+      SolidContact contact(scene.geometry);
+      const auto pairs = contact.candidate_pairs(scene.state, 0.1);
+      ASSERT_EQ(contact.update(scene.state, pairs, true).status, MortarStatus::ok);
+      const Eigen::Index size = 6 * scene.slaves() + 3 * scene.masters();
+      Eigen::MatrixXd J = Eigen::MatrixXd::Zero(size, size);
+      contact.jacobian(c.law, [&](const ContactBlock &block) {
+        for (std::size_t i = 0; i < block.rows.size(); ++i)
+          for (std::size_t j = 0; j < block.columns.size(); ++j)
+            J.block<3, 3>(scene.row_of(block.rows[i]), scene.row_of(block.columns[j])) +=
+                block.values.block<3, 3>(3 * static_cast<Eigen::Index>(i), 3 * static_cast<Eigen::Index>(j));
+      });
+      const double h = 1e-5;
+      double worst = 0;
+      for (Eigen::Index column = 0; column < size; ++column) {
+        const auto perturbed = [&](double by) {
+          SolidScene moved = scene;
+          const Eigen::Index node = column / 3, i = column % 3;
+          if (node < scene.slaves()) {
+            moved.state.slave.u[node][i] += by;
+            moved.state.slave.rate[node][i] += by * scene.state.shift;
+          } else if (node < scene.slaves() + scene.masters()) {
+            moved.state.master.u[node - scene.slaves()][i] += by;
+            moved.state.master.rate[node - scene.slaves()][i] += by * scene.state.shift;
+          } else
+            moved.state.multiplier[node - scene.slaves() - scene.masters()][i] += by;
+          return moved.residual(c.law, pairs);
+        };
+        const Eigen::VectorXd slope =
+            (8 * (perturbed(h) - perturbed(-h)) - (perturbed(2 * h) - perturbed(-2 * h))) / (12 * h);
+        worst = std::max(worst, (slope - J.col(column)).lpNorm<Eigen::Infinity>());
+      }
+      EXPECT_LT(worst, 1e-8 * J.lpNorm<Eigen::Infinity>()) << "order " << order << ", load " << c.load;
+    }
+}
+
+} // namespace
