@@ -54,6 +54,12 @@ bool is_yaml(const std::string &path)
   return path.ends_with(".yml") || path.ends_with(".yaml");
 }
 
+/// Control characters other than blanks: a byte 0 would end PETSc's copy of the line.
+bool is_text(const std::string &line)
+{
+  return std::none_of(line.begin(), line.end(), [](unsigned char c) { return std::iscntrl(c) && !std::isspace(c); });
+}
+
 void check_options_file(const std::string &path, std::vector<std::string> opened)
 {
   if (std::find(opened.begin(), opened.end(), path) != opened.end())
@@ -69,6 +75,7 @@ void check_options_file(const std::string &path, std::vector<std::string> opened
   if (is_yaml(path)) return;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
+    if (!is_text(line)) unreadable("line " + std::to_string(number) + " is no text");
     const std::vector<std::string> words = split(line.substr(0, line.find('#')));
     if (words.empty()) continue;
     const std::string place = "in options file " + path + " line " + std::to_string(number);
@@ -153,6 +160,15 @@ void check_environment_options(const std::string &text)
 void check_options_file(const std::string &path)
 {
   check_options_file(path, {});
+}
+
+std::vector<std::string> standing_options_files()
+{
+  std::vector<std::string> files = {".petscrc", "petscrc"};
+  if (const char *home = std::getenv("HOME")) files.insert(files.begin(), std::string(home) + "/.petscrc");
+  std::error_code ignored;
+  std::erase_if(files, [&](const std::string &path) { return !std::filesystem::is_regular_file(path, ignored); });
+  return files;
 }
 
 } // namespace tribogel

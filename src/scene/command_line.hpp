@@ -33,4 +33,8 @@ void check_environment_options(const std::string &text);
 /// in it are checked as well. YAML files (.yml, .yaml) are checked for being readable only.
 void check_options_file(const std::string &path);
 
+/// Those that PETSc reads unasked, unless -skip_petscrc is given: ~/.petscrc, .petscrc and petscrc, as far as they
+/// exist.
+std::vector<std::string> standing_options_files();
+
 } // namespace tribogel

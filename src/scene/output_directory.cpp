@@ -30,10 +30,19 @@ fs::path nearest_existing(const fs::path &path)
   return here;
 }
 
+/// What was made on the way to a directory that could not be made goes again.
+void remove_made(fs::path path, const fs::path &existing)
+{
+  std::error_code ignored;
+  for (; path != existing && path.has_relative_path(); path = path.parent_path()) fs::remove(path, ignored);
+}
+
 std::string make_directory(const OutputParameters &output)
 {
-  std::error_code failed;
+  std::error_code failed, ignored;
+  const fs::path existing = nearest_existing(output.directory);
   fs::create_directories(output.directory, failed);
+  if (failed) remove_made(fs::absolute(output.directory, ignored), existing);
   if (!failed)
     for (const char *file : run_files) {
       if (output.restart && std::string(file) != "summary.json") continue; // that of the run which has stopped

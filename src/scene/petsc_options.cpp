@@ -129,6 +129,8 @@ void check_sources(const CommandLine &line)
   if (rank == 0) {
     try {
       if (const char *text = std::getenv("PETSC_OPTIONS")) check_environment_options(text);
+      if (line.names.count("skip_petscrc") == 0)
+        for (const std::string &path : standing_options_files()) check_options_file(path);
       for (const std::string &path : line.options_files) check_options_file(path);
     } catch (const UserError &error) {
       complaint = error.text;

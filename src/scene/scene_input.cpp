@@ -59,10 +59,11 @@ void read_friction(const OptionReader &reader, SceneInput &input)
     refuse(coefficients.name, reader.text(coefficients),
            "the coefficient at rest is " + to_text(at_rest) + "; allowed: the terms with exponent 0 add up to >= 0");
   const double a = reader.real("-friction_pressure_exponent"), floor = reader.real("-friction_pressure_floor");
+  const auto speeds = read_speed_range(reader);
   if (!input.scene.has_top) return;
   if (polynomial) {
     input.scene.friction = PolynomialFriction<double>{b, m, a, floor};
-    input.scene.friction_speeds = read_speed_range(reader);
+    input.scene.friction_speeds = speeds;
     if (a == 1 && reader.is_given("-friction_pressure_floor"))
       input.notes.push_back("without effect with -friction_pressure_exponent 1: -friction_pressure_floor");
     if (*std::min_element(b.begin(), b.end()) < 0)
@@ -72,8 +73,8 @@ void read_friction(const OptionReader &reader, SceneInput &input)
     return;
   }
   std::string idle;
-  for (const char *name :
-       {"-friction_coefficients", "-friction_exponents", "-friction_pressure_exponent", "-friction_pressure_floor"})
+  for (const char *name : {"-friction_coefficients", "-friction_exponents", "-friction_pressure_exponent",
+                           "-friction_pressure_floor", "-friction_speed_range"})
     if (reader.is_given(name)) idle += (idle.empty() ? "" : ", ") + std::string(name);
   if (!idle.empty()) input.notes.push_back("without effect with -friction_law none: " + idle);
 }

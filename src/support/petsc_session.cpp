@@ -3,9 +3,11 @@
 #include "support/exit_status.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cstdarg>
 #include <cstdio>
+#include <cstdlib>
 #include <iterator>
 #include <sstream>
 #include <string_view>
@@ -21,6 +23,8 @@ namespace
 // PETSc's handlers are plain C functions, and there is one PETSc in a process: so is their state.
 int status_of_errors = exit_status::bad_input;
 std::string caught_help;
+std::string sources;                      ///< the words that tell PETSc where to read options
+constexpr std::size_t longest_word = 200; ///< of a message; a damaged file may hold any
 PetscErrorCode (*const print_as_ever)(FILE *, const char[], std::va_list) = PetscVFPrintf;
 
 int rank_in_world()
@@ -30,23 +34,37 @@ int rank_in_world()
   return rank;
 }
 
+std::vector<std::string> split(const std::string &text)
+{
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
 /// The options in the database whose value is a word of the message: PETSc does not say which one it could not read.
-std::string options_with_value_in(const std::string &message)
+/// Before there is a database: where PETSc was told to read.
+std::string options_behind(const std::string &message)
 {
   char *all = nullptr;
   PetscBool ready = PETSC_FALSE;
   PetscInitialized(&ready);
-  if (!ready || PetscOptionsGetAll(nullptr, &all) != 0 || !all) return {};
-  const auto split = [](const std::string &text) {
-    std::istringstream stream(text);
-    return std::vector<std::string>{std::istream_iterator<std::string>(stream), {}};
-  };
+  if (!ready) return sources;
+  if (PetscOptionsGetAll(nullptr, &all) != 0 || !all) return {};
   const std::vector<std::string> words = split(all), said = split(message);
   PetscFree(all);
   std::string found;
   for (std::size_t i = 1; i < words.size(); ++i)
     if (words[i - 1][0] == '-' && std::find(said.begin(), said.end(), words[i]) != said.end())
       found += (found.empty() ? "" : ", ") + words[i - 1] + " = " + words[i];
+  return found;
+}
+
+/// "-options_file = a, -options_string_yaml = b": where the words, and PETSC_OPTIONS_YAML, say that options are.
+std::string sources_in(const std::vector<std::string> &words)
+{
+  std::string found;
+  for (std::size_t i = 1; i + 1 < words.size(); ++i)
+    if (words[i].starts_with("-options_")) found += (found.empty() ? "" : ", ") + words[i] + " = " + words[i + 1];
+  if (std::getenv("PETSC_OPTIONS_YAML")) found += std::string(found.empty() ? "" : ", ") + "PETSC_OPTIONS_YAML";
   return found;
 }
 
@@ -85,14 +103,18 @@ PetscErrorCode CatchTypeLists(FILE *file, const char format[], std::va_list list
   return 0;
 }
 
-/// One line: PETSc's messages may have several.
-std::string flattened(const char *message)
+/// One line that a terminal can show: PETSc's messages may have several, and what is quoted may hold anything.
+std::string one_line(std::string text)
 {
-  std::string text = message ? message : "";
   for (char &c : text)
-    if (c == '\n') c = ' ';
-  while (!text.empty() && text.back() == ' ') text.pop_back();
-  return text;
+    if (std::iscntrl(static_cast<unsigned char>(c))) c = std::isspace(static_cast<unsigned char>(c)) ? ' ' : '?';
+  std::string line;
+  for (std::size_t begin = 0, end; begin < text.size(); begin = end) {
+    end = std::min(text.find(' ', begin + 1), text.size());
+    line += end - begin > longest_word ? text.substr(begin, longest_word) + "..." : text.substr(begin, end - begin);
+  }
+  while (!line.empty() && line.back() == ' ') line.pop_back();
+  return line;
 }
 
 /// An error known to all processes is printed by the first one and returned up to main on all. One that a single
@@ -108,14 +130,14 @@ PetscErrorCode ReportError(MPI_Comm comm, int, const char *function, const char 
   const bool alone = together < all;
   if (alone && rank_in_world() != 0) std::this_thread::sleep_for(std::chrono::seconds(1));
   if (alone || rank_in_world() == 0) {
-    std::string text = flattened(message);
+    std::string text = message ? message : "";
     if (text.empty()) text = "PETSc failed";
     if (status_of_errors != exit_status::bad_input) {
       text += std::string(" (PETSc, ") + function + " in " + file + ")";
-    } else if (const std::string options = options_with_value_in(text); !options.empty()) {
+    } else if (const std::string options = options_behind(text); !options.empty()) {
       text = options + ": " + text + "; allowed: see -help petsc";
     }
-    std::fprintf(stderr, "tribogel: error: %s\n", text.c_str());
+    std::fprintf(stderr, "tribogel: error: %s\n", one_line(text).c_str());
   }
   if (alone) MPI_Abort(MPI_COMM_WORLD, status_of_errors);
   return code;
@@ -123,7 +145,7 @@ PetscErrorCode ReportError(MPI_Comm comm, int, const char *function, const char 
 
 void print_line(const char *kind, const std::string &text)
 {
-  if (rank_in_world() == 0) std::fprintf(stderr, "tribogel: %s: %s\n", kind, flattened(text.c_str()).c_str());
+  if (rank_in_world() == 0) std::fprintf(stderr, "tribogel: %s: %s\n", kind, one_line(text).c_str());
 }
 
 } // namespace
@@ -133,6 +155,7 @@ PetscSession::PetscSession(const std::vector<std::string> &words) : texts(words)
   for (std::string &text : texts) pointers.push_back(text.data());
   pointers.push_back(nullptr);
   arguments = pointers.data();
+  sources = sources_in(words);
   int count = static_cast<int>(texts.size());
   PetscHelpPrintf = CatchHelp;
   PetscVFPrintf = CatchTypeLists;

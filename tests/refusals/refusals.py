@@ -8,13 +8,15 @@ With --mpirun some refusals are repeated on two processes. Each run has a direct
 options/README.md must be what -help markdown prints.
 """
 import argparse
-import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 
-START = "tribogel: error: "
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
+from judge import contents, faults_of_refusal, start  # noqa: E402
+
+TIMEOUT = 120  # s
 ALLOWED = "allowed: "
 
 # A scene that is over in a moment, for what must run.
@@ -66,8 +68,13 @@ REFUSALS = [
     ("wrong value in a file", ["-options_file", "zero.opts"], ["-top_height = 0"]),
     ("output below a regular file", ["-output_directory", "a_file/run"], ["-output_directory = a_file/run",
                                                                           "not a directory"]),
+    ("output with too long a name", ["-output_directory", "new/" + "x" * 300], ["-output_directory = new/x", "name too long"]),
     ("output onto a regular file", ["-output_directory", "a_file"], ["-output_directory = a_file"]),
     ("existing run", ["-output_directory", "a_run"], ["-output_directory = a_run", "-overwrite"]),
+    ("file with a byte 0", ["-options_file", "zero_byte.opts"], ["zero_byte.opts", "line 1 is no text"]),
+    ("wrong YAML", ["-options_file", "wrong.yaml"], ["-options_file = wrong.yaml", "YAML"]),
+    ("control characters", ["-top_height", "\x1b[2J"], ["-top_height = ?[2J"]),
+    ("an endless value", ["-top_height", "9x" * 30000], ["-top_height = 9x9x9x", "9x..."]),
     ("1e11 elements", ["-elements_radial", "330000"], ["-elements_radial = 330000", "e+11 elements"]),
     ("stray word", ["fig06.opts"], ["fig06.opts", "stray"]),
     ("word after a flag", ["-overwrite", "a_run"], ["-overwrite = a_run"]),
@@ -117,20 +124,9 @@ def prepare(directory):
     (directory / "blanks.opts").write_text("# the list below has a blank\n-friction_coefficients 0 8e-4\n")
     (directory / "bare.opts").write_text("top_radius 9\n")
     (directory / "zero.opts").write_text("-top_height 0 # mm\n")
+    (directory / "zero_byte.opts").write_text("-top_height 4\0 5\n")
+    (directory / "wrong.yaml").write_text("top_height: [4\n")
     (directory / "unused.opts").write_text("-pc_hypre_type boomeramg\n")
-
-
-def contents(directory):
-    """Names and contents of all that is there."""
-    return {str(path.relative_to(directory)): path.read_bytes() if path.is_file() else None
-            for path in directory.rglob("*")}
-
-
-def run(command, directory):
-    environment = {name: value for name, value in os.environ.items() if name != "PETSC_OPTIONS"}
-    environment["HOME"] = str(directory)  # no .petscrc of the user
-    return subprocess.run(command, cwd=directory, env=environment, capture_output=True, text=True, timeout=120,
-                          check=False)
 
 
 def judge_refusal(command, expected):
@@ -139,24 +135,16 @@ def judge_refusal(command, expected):
         directory = pathlib.Path(name)
         prepare(directory)
         before = contents(directory)
-        done = run(command, directory)
-        wrong = []
-        if done.returncode != 2:
-            wrong.append(f"exit status {done.returncode}, not 2")
-        lines = done.stderr.splitlines()
-        if len(lines) != 1 or not lines[0].startswith(START):
-            wrong.append(f"stderr is not one line that begins with '{START}': {done.stderr!r}")
-        wrong += [f"'{part}' is not in {done.stderr!r}" for part in [ALLOWED] + expected if part not in done.stderr]
-        if contents(directory) != before:
-            wrong.append("files were written, changed or removed")
-        return wrong
+        done = start(command, directory, TIMEOUT)
+        wrong = faults_of_refusal(done, before, directory)
+        return wrong + [f"'{part}' is not in {done.stderr!r}" for part in [ALLOWED] + expected if part not in done.stderr]
 
 
 def judge_run(command, expected):
     with tempfile.TemporaryDirectory() as name:
         directory = pathlib.Path(name)
         prepare(directory)
-        done = run(command, directory)
+        done = start(command, directory, TIMEOUT)
         wrong = [f"exit status {done.returncode}, not 0: {done.stderr}"] if done.returncode != 0 else []
         wrong += [f"'{part}' is not on stdout" for part in expected if part not in done.stdout]
         if (directory / "a_run" / "remarks.txt").read_text() != "mine\n":
@@ -190,7 +178,7 @@ def main():
             print(f"FAILED {name}: {line}")
     cases += 1
     page = pathlib.Path(__file__).resolve().parents[2] / "options" / "README.md"
-    if run([arguments.tribogel, "-help", "markdown"], page.parent).stdout != page.read_text():
+    if start([arguments.tribogel, "-help", "markdown"], page.parent, TIMEOUT).stdout != page.read_text():
         failures += 1
         print(f"FAILED page of options: {page} is not what '-help markdown' prints")
     print(f"{cases} cases, {failures} failures")

@@ -232,6 +232,10 @@ TEST(OptionsFile, refuses_with_file_line_and_option)
   EXPECT_TRUE(contains(text, "8e-4: stray")) << text;
   const TemporaryFile bare("bare.opts", "top_radius 9\n");
   EXPECT_TRUE(contains(refusal([&] { check_options_file(bare.path); }), "top_radius"));
+  for (const char control : {'\0', '\x1b', '\x7f'}) {
+    const TemporaryFile damaged("damaged.opts", std::string("-top_height 4\n-top_radius 9") + control + "5\n");
+    EXPECT_TRUE(contains(refusal([&] { check_options_file(damaged.path); }), damaged.path + ": line 2"));
+  }
   const TemporaryFile empty_name("name.opts", "-options_file\n");
   EXPECT_TRUE(contains(refusal([&] { check_options_file(empty_name.path); }), "value missing"));
 }

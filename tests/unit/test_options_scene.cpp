@@ -282,6 +282,8 @@ TEST(OptionsScene, wrong_values_are_refused_even_where_they_have_no_effect)
   expect_refused("-top_maxwell_viscosities", "4.5,-1", {{"-top_material", "hyperelastic"}});
   expect_refused("-top_height", "0", {{"-specimens", "bottom"}});
   expect_refused("-friction_coefficients", "0,,1", {{"-friction_law", "none"}});
+  expect_refused("-friction_speed_range", "2,1", {{"-friction_law", "none"}});
+  expect_refused("-friction_speed_range", "2,1", {{"-specimens", "bottom"}});
 }
 
 TEST(OptionsScene, refuses_friction_the_program_cannot_do)
