@@ -1,6 +1,7 @@
 #include "bulk/bulk.hpp"
 
 #include "tribogel/kinematics/axisymmetric.hpp"
+#include "tribogel/kinematics/solid.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,7 @@ template <class Kinematics, int order> class BulkOf final : public Bulk
   using CellType = typename Element::CellType;
   using Vector = typename Element::template Vector<double>;
   using Evaluation = typename Element::template Evaluation<double>;
-  static constexpr int dofs = Element::dofs;
+  static constexpr int dofs = Element::dofs, dim = Kinematics::dim;
 
 public:
   BulkOf(const Mesh &mesh, const Kinematics &model, const Viscoelastic<double> materials[2]) : kinematics(model)
@@ -29,15 +30,16 @@ public:
     for (const MeshCell &mesh_cell : mesh.cells) {
       CellData data{};
       data.body = mesh_cell.body;
-      std::array<std::array<double, 2>, Element::nodes> X;
+      std::array<typename CellType::Position, Element::nodes> X;
       for (int a = 0; a < Element::nodes; ++a) {
         const Node &node = mesh.nodes[mesh_cell.node[a]];
-        X[a] = node.X;
+        std::copy_n(node.X.begin(), dim, X[a].begin());
         for (int i = 0; i < 3; ++i) data.dof[3 * a + i] = node.displacement + i;
-        for (int j = 0; j < 2; ++j) data.centre[j] += node.X[j] / Element::nodes;
+        for (int j = 0; j < dim; ++j) data.centre[j] += node.X[j] / Element::nodes;
       }
       sound = data.cell.set(X) && sound;
-      for (int node : mesh_cell.node) data.at_top_plate = data.at_top_plate || mesh.nodes[node].on(Side::top_plate);
+      for (int a = 0; a < Element::nodes; ++a)
+        data.at_top_plate = data.at_top_plate || mesh.nodes[mesh_cell.node[a]].on(Side::top_plate);
       data.history = offset;
       offset += static_cast<PetscInt>(Element::points) * material[data.body].history_size();
       cells.push_back(data);
@@ -206,8 +208,9 @@ public:
       for (const auto &branch : material[c.body].branches) modulus += branch.spring.bulk_modulus;
       for (const auto &p : c.cell.point)
         for (int a = 0; a < Element::nodes; ++a) {
-          const double force =
-              std::numeric_limits<double>::epsilon() * modulus * p.weight * std::hypot(p.shape[1][a], p.shape[2][a]);
+          double slope = p.shape[1][a];
+          for (int j = 2; j <= dim; ++j) slope = std::hypot(slope, p.shape[j][a]);
+          const double force = std::numeric_limits<double>::epsilon() * modulus * p.weight * slope;
           for (int i = 0; i < 3; ++i) magnitude[c.dof[3 * a + i]] += force;
         }
     }
@@ -219,7 +222,7 @@ private:
   struct CellData {
     int body;
     std::array<PetscInt, dofs> dof; ///< offsets in a local vector
-    std::array<double, 2> centre;
+    std::array<double, 3> centre;
     std::size_t history;     ///< offset of its first point
     std::size_t first_entry; ///< in `entries`; `elsewhere` if some of its unknowns are another rank's
     bool at_top_plate;
@@ -271,7 +274,7 @@ private:
     return u;
   }
 
-  static BulkFailure failure_of(const CellData &c, PointStatus status) { return {status, c.body, c.centre}; }
+  static BulkFailure failure_of(const CellData &c, PointStatus status) { return {status, c.body, c.centre, dim}; }
 
   Kinematics kinematics;
   Viscoelastic<double> material[2];
@@ -286,14 +289,24 @@ public:
   bool sound = true; ///< no cell is degenerate or inside out
 };
 
-template <int order> PetscErrorCode CreateBulk(const Mesh &mesh, const Scene &scene, std::unique_ptr<Bulk> &bulk)
+template <class Kinematics, int order>
+PetscErrorCode Make(const Mesh &mesh, const Scene &scene, const Kinematics &kinematics, std::unique_ptr<Bulk> &bulk)
 {
   const Viscoelastic<double> materials[2] = {scene.bottom.material, scene.top.material};
   PetscFunctionBeginUser;
-  auto made =
-      std::make_unique<BulkOf<AxisymmetricTorsion, order>>(mesh, AxisymmetricTorsion{scene.twist_length()}, materials);
+  auto made = std::make_unique<BulkOf<Kinematics, order>>(mesh, kinematics, materials);
   PetscCheck(made->sound, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "the mesh has a degenerate cell");
   bulk = std::move(made);
+  PetscFunctionReturn(0);
+}
+
+template <int order> PetscErrorCode MakeOf(const Mesh &mesh, const Scene &scene, std::unique_ptr<Bulk> &bulk)
+{
+  PetscFunctionBeginUser;
+  if (mesh.dim == 2)
+    PetscCall(Make<AxisymmetricTorsion, order>(mesh, scene, {scene.twist_length()}, bulk));
+  else
+    PetscCall(Make<Solid, order>(mesh, scene, {}, bulk));
   PetscFunctionReturn(0);
 }
 
@@ -303,9 +316,9 @@ PetscErrorCode Bulk::Create(const Mesh &mesh, const Scene &scene, std::unique_pt
 {
   PetscFunctionBeginUser;
   if (mesh.order == 1)
-    PetscCall(CreateBulk<1>(mesh, scene, bulk));
+    PetscCall(MakeOf<1>(mesh, scene, bulk));
   else
-    PetscCall(CreateBulk<2>(mesh, scene, bulk));
+    PetscCall(MakeOf<2>(mesh, scene, bulk));
   PetscFunctionReturn(0);
 }
 
@@ -320,7 +333,8 @@ PetscErrorCode ShareFailure(MPI_Comm comm, BulkFailure &failure)
   if (worst.status == static_cast<int>(PointStatus::ok)) PetscFunctionReturn(0);
   failure.status = static_cast<PointStatus>(worst.status);
   PetscCallMPI(MPI_Bcast(&failure.body, 1, MPI_INT, worst.rank, comm));
-  PetscCallMPI(MPI_Bcast(failure.X.data(), 2, MPI_DOUBLE, worst.rank, comm));
+  PetscCallMPI(MPI_Bcast(failure.X.data(), 3, MPI_DOUBLE, worst.rank, comm));
+  PetscCallMPI(MPI_Bcast(&failure.dim, 1, MPI_INT, worst.rank, comm));
   PetscFunctionReturn(0);
 }
 
@@ -328,8 +342,8 @@ std::string describe(const BulkFailure &failure)
 {
   std::ostringstream text;
   text << (failure.status == PointStatus::inverted ? "element turned inside out" : "Maxwell update found no solution")
-       << " in the " << (failure.body == top_body ? "top" : "bottom") << " gel near R = " << failure.X[0]
-       << " mm, Z = " << failure.X[1] << " mm";
+       << " in the " << (failure.body == top_body ? "top" : "bottom") << " gel near "
+       << describe_place(failure.dim, failure.X);
   return text.str();
 }
 

@@ -19,7 +19,8 @@ using History = std::vector<double>;
 struct BulkFailure {
   PointStatus status = PointStatus::ok;
   int body = 0;
-  std::array<double, 2> X{}; ///< centre of the cell, reference (R, Z) [mm]
+  std::array<double, 3> X{}; ///< centre of the cell, as Node::X [mm]
+  int dim = 2;
 
   explicit operator bool() const { return status != PointStatus::ok; }
 };

@@ -7,14 +7,15 @@ namespace
 {
 
 /// The lower half of a wall, which is nearer to the other gel than to its own plate; `taken` marks its nodes.
-SurfaceChain lower_half(const SurfaceChain &wall, std::vector<bool> &taken)
+Surface lower_half(const Surface &wall, std::vector<bool> &taken)
 {
   const double foot = wall.node[wall.facet.front()[0]].X[1], head = wall.node[wall.facet.back()[1]].X[1];
-  SurfaceChain half;
+  Surface half;
   std::vector<int> place(wall.node.size(), -1);
   for (const auto &facet : wall.facet) {
     if (wall.node[facet[1]].X[1] > 0.5 * (foot + head)) break;
-    std::array<int, 3> own{-1, -1, -1};
+    std::array<int, 9> own;
+    own.fill(-1);
     for (int b : {0, 2, 1}) {
       if (facet[b] < 0) continue;
       if (place[facet[b]] < 0) {
@@ -40,12 +41,12 @@ PetscErrorCode Contact::SetUp(MPI_Comm on, const Mesh &mesh, const Scene &scene)
     PetscCall(gels.back().SetUp(comm, mesh, scene, mesh.slave, false));
   }
   for (int body : {bottom_body, top_body}) {
-    const SurfaceChain &wall = mesh.wall[body];
+    const Surface &wall = mesh.wall[body];
     if (wall.facet.empty()) continue;
     std::vector<bool> taken(wall.node.size(), false);
     if (body == top_body) {
       taken[wall.facet.front()[0]] = true; // the crease
-      const SurfaceChain lower = lower_half(wall, taken);
+      const Surface lower = lower_half(wall, taken);
       if (!lower.facet.empty()) {
         gels.emplace_back();
         PetscCall(gels.back().SetUp(comm, mesh, scene, lower, true));

@@ -31,7 +31,7 @@ std::string describe(MortarStatus status, const SurfaceNode &near, bool wall)
 
 } // namespace
 
-PetscErrorCode GelContact::SetUp(MPI_Comm on, const Mesh &both, const Scene &scene, SurfaceChain curve, bool is_wall)
+PetscErrorCode GelContact::SetUp(MPI_Comm on, const Mesh &both, const Scene &scene, Surface curve, bool is_wall)
 {
   PetscFunctionBeginUser;
   comm = on;

@@ -18,7 +18,7 @@ class GelContact
 {
 public:
   /// `wall`: the slave is a side wall, which starts at the crease with the lower face.
-  PetscErrorCode SetUp(MPI_Comm comm, const Mesh &mesh, const Scene &scene, SurfaceChain slave, bool wall);
+  PetscErrorCode SetUp(MPI_Comm comm, const Mesh &mesh, const Scene &scene, Surface slave, bool wall);
 
   /// Before a step from U: which facets of a wall may touch during it. Collective.
   PetscErrorCode BeginStep(const PlateFrames &frames, const double *U);
@@ -64,7 +64,7 @@ private:
   int rank = 0, size = 1;
   int first = 0, last = 0; ///< this rank's share of the slave nodes
   const Mesh *mesh = nullptr;
-  SurfaceChain slave;
+  Surface slave;
   bool wall = false;
   int failed_facet = 0; ///< first wall facet that could not be evaluated in this step
   ContactParameters parameters;

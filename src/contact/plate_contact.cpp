@@ -9,7 +9,7 @@
 namespace tribogel
 {
 
-void PlateContact::SetUp(const Mesh &both, const Scene &scene, int body, const SurfaceChain &wall,
+void PlateContact::SetUp(const Mesh &both, const Scene &scene, int body, const Surface &wall,
                          const std::vector<bool> &taken)
 {
   mesh = &both;

@@ -13,7 +13,7 @@ class PlateContact
 {
 public:
   /// The nodes of `wall` with a multiplier, save those in `taken` (indices into the chain).
-  void SetUp(const Mesh &mesh, const Scene &scene, int body, const SurfaceChain &wall, const std::vector<bool> &taken);
+  void SetUp(const Mesh &mesh, const Scene &scene, int body, const Surface &wall, const std::vector<bool> &taken);
 
   void AddResidual(const PlateFrames &frames, const double *U, double *F, double *magnitude) const;
   PetscErrorCode AddJacobian(const PlateFrames &frames, const double *U, Mat A) const;

@@ -7,11 +7,11 @@
 namespace tribogel
 {
 
-inline SurfaceReference reference_of(const SurfaceChain &chain)
+inline SurfaceReference reference_of(const Surface &chain)
 {
   SurfaceReference surface;
   for (const SurfaceNode &node : chain.node) surface.X.push_back({node.X[0], node.X[1]});
-  surface.facets = chain.facet;
+  for (const auto &facet : chain.facet) surface.facets.push_back({facet[0], facet[1], facet[2]});
   return surface;
 }
 

@@ -140,4 +140,48 @@ std::vector<MeridianBlock> meridian_blocks(const Scene &scene)
   return blocks;
 }
 
+namespace
+{
+
+/// The outline's edges, in the order of the four sides.
+void name_sides(const MeridianBlock &block, int first, SerialMesh &mesh)
+{
+  const int columns = static_cast<int>(block.R.size()), rows = static_cast<int>(block.Z.size());
+  const auto edge = [&](int a, int b, Side side) { mesh.boundary.push_back({{first + a, first + b, -1, -1}, side}); };
+  for (int i = 0; i + 1 < columns; ++i) {
+    edge(i, i + 1, block.lower);
+    edge((rows - 1) * columns + i, (rows - 1) * columns + i + 1, block.upper);
+  }
+  for (int j = 0; j + 1 < rows; ++j) {
+    edge(j * columns, (j + 1) * columns, block.inner);
+    edge((j + 1) * columns - 1, (j + 2) * columns - 1, block.outer);
+  }
+}
+
+} // namespace
+
+SerialMesh serial_mesh(const std::vector<MeridianBlock> &blocks)
+{
+  SerialMesh mesh;
+  for (const MeridianBlock &block : blocks) {
+    const int first = static_cast<int>(mesh.vertex.size()), columns = static_cast<int>(block.R.size());
+    for (const double z : block.Z)
+      for (const double r : block.R) mesh.vertex.push_back({r, z, 0});
+    for (int j = 0; j + 1 < static_cast<int>(block.Z.size()); ++j)
+      for (int i = 0; i + 1 < columns; ++i) {
+        const int corner = first + j * columns + i;
+        mesh.cell.push_back({{corner, corner + 1, corner + columns, corner + columns + 1, -1, -1, -1, -1},
+                             block.body,
+                             0.5 * (block.R[i] + block.R[i + 1])});
+      }
+    name_sides(block, first, mesh);
+    if (const auto shape = block.shape)
+      mesh.shape[block.body] = [shape](const std::array<double, 3> &X) {
+        const auto [R, Z] = shape(X[0], X[1]);
+        return std::array<double, 3>{R, Z, 0};
+      };
+  }
+  return mesh;
+}
+
 } // namespace tribogel

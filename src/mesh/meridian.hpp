@@ -1,6 +1,7 @@
 /// The bodies in the (R, Z) half plane before DMPlex sees them: structured blocks of quadrilaterals with named sides.
 #pragma once
 
+#include "mesh/blocks.hpp"
 #include "tribogel/scene/scene.hpp"
 
 #include <array>
@@ -9,13 +10,6 @@
 
 namespace tribogel
 {
-
-/// What a part of a body's outline is.
-enum class Side { axis, wall, top_plate, bottom_plate, slave, master };
-inline constexpr int side_count = 6;
-inline constexpr const char *side_names[side_count] = {"axis", "wall", "top_plate", "bottom_plate", "slave", "master"};
-
-inline constexpr int bottom_body = 0, top_body = 1;
 
 /// One body: the tensor grid R x Z with a name for each of its four sides, deformed if it has a shape. The two contact
 /// sides must run outwards (R grows along them), and an axis must stay at R = 0.
@@ -34,5 +28,8 @@ struct MeridianBlock {
 /// of equal grading differ in scale only (up to whole numbers of edges). `refinements` keeps these numbers and every
 /// node.
 std::vector<MeridianBlock> meridian_blocks(const Scene &scene);
+
+/// The blocks, one a body, as one mesh; ranks get bands of equal cell count in R through both bodies.
+SerialMesh serial_mesh(const std::vector<MeridianBlock> &blocks);
 
 } // namespace tribogel

@@ -2,10 +2,12 @@
 /// callbacks loop over.
 #pragma once
 
-#include "mesh/meridian.hpp"
+#include "mesh/blocks.hpp"
 #include "support/petsc_handles.hpp"
+#include "tribogel/scene/scene.hpp"
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace tribogel
@@ -15,11 +17,12 @@ namespace tribogel
 struct Node {
   PetscInt point;          ///< in the DMPlex
   PetscInt natural;        ///< number of that point before the mesh was distributed
-  std::array<double, 2> X; ///< reference (R, Z) [mm]
+  std::array<double, 3> X; ///< reference (R, Z, 0) or (x, y, z) [mm]
   PetscInt displacement;   ///< offset of its three displacements in a local vector
   PetscInt traction = -1;  ///< offset of its three multiplier components, -1 without
   int body;                ///< bottom_body or top_body
   unsigned sides = 0;      ///< bit k: lies on Side k
+  unsigned prescribed = 0; ///< bit i: displacement i is no unknown
   bool owned;              ///< by this rank
 
   bool on(Side side) const { return sides >> static_cast<int>(side) & 1u; }
@@ -27,55 +30,71 @@ struct Node {
 
 struct MeshCell {
   int body;
-  PetscInt natural;        ///< number of the cell before the mesh was distributed
-  std::array<int, 9> node; ///< indices into Mesh::nodes, lexicographic; order 1 uses the first four
+  PetscInt natural;         ///< number of the cell before the mesh was distributed
+  std::array<int, 27> node; ///< indices into Mesh::nodes, lexicographic; Mesh::nodes_per_cell of them
 };
 
-/// A node of a contact surface, the same on every rank. Global indices are those of the solution vector, negative where
-/// a component is prescribed or absent.
+/// A node of a surface, the same on every rank. Global indices are those of the solution vector, negative where a
+/// component is prescribed or absent.
 struct SurfaceNode {
-  std::array<double, 2> X;                        ///< reference (R, Z) [mm]
+  std::array<double, 3> X;                        ///< reference (R, Z, 0) or (x, y, z) [mm]
   std::array<PetscInt, 3> displacement, traction; ///< global indices
   bool multiplier;
   int local; ///< index into Mesh::nodes on the rank that owns the node, -1 elsewhere
 };
 
-/// A contact surface as a chain of facets.
-struct SurfaceChain {
+/// A part of the bodies' boundary. In the half plane it is a chain, and a facet is its ends, then the midside node
+/// (order 2). In 3-D the 4 or 9 nodes of a facet are lexicographic (xi runs fastest), such that dx/dxi x dx/deta points
+/// out of the body. Unused entries are -1.
+struct Surface {
   std::vector<SurfaceNode> node;
-  std::vector<std::array<int, 3>> facet; ///< ends, then the midside node (order 2), -1 else
+  std::vector<std::array<int, 9>> facet;
 };
 
 class Mesh
 {
 public:
-  /// Build, distribute and number the mesh of `blocks`, one a body. All nodes, midside ones too, lie on the blocks'
-  /// shapes. Collective.
-  PetscErrorCode Build(MPI_Comm comm, const Scene &scene, const std::vector<MeridianBlock> &blocks);
+  /// Distribute and number the mesh. All nodes, midside ones too, lie on the bodies' shapes. Collective; the mesh
+  /// counts on the first rank.
+  PetscErrorCode Build(MPI_Comm comm, const Scene &scene, const SerialMesh &serial);
 
   DmHandle dm;
+  int dim = 2;
   int order = 2;
   std::vector<Node> nodes;
   std::vector<MeshCell> cells; ///< those of this rank; each cell is on one rank
-  SurfaceChain slave, master;  ///< the gels' contact faces, from the axis outwards; empty without contact
-  SurfaceChain wall[2];        ///< each body's side wall, upwards; empty unless the walls may touch
+  Surface slave, master;       ///< the gels' contact faces, a chain's from the axis outwards; empty without contact
+  Surface wall[2];             ///< each body's side wall, a chain's upwards; empty unless the walls may touch
   PetscInt unknowns = 0;       ///< in all
 
-  int nodes_per_cell() const { return (order + 1) * (order + 1); }
+  int nodes_per_cell() const { return dim == 2 ? (order + 1) * (order + 1) : (order + 1) * (order + 1) * (order + 1); }
 
 private:
   std::vector<PetscInt> natural; ///< number of each point of this rank before the mesh was distributed
 
-  PetscErrorCode Create(MPI_Comm comm, const std::vector<MeridianBlock> &blocks);
-  PetscErrorCode Distribute(const std::vector<MeridianBlock> &blocks);
+  PetscErrorCode Create(MPI_Comm comm, const SerialMesh &serial);
+  PetscErrorCode Distribute(const SerialMesh &serial);
   PetscErrorCode Number(const Scene &scene);
+  PetscErrorCode ListNodes(const Scene &scene);
   PetscErrorCode Tabulate();
-  PetscErrorCode Shape(const std::vector<MeridianBlock> &blocks);
-  PetscErrorCode Constrain(PetscSection section, PetscInt point, unsigned sides, PlateBond bond, bool indices);
+  PetscErrorCode Place();
+  PetscErrorCode Shape(const SerialMesh &serial);
+  PetscErrorCode Constrain(PetscSection section, const Node &node, bool indices);
 };
 
-/// Chain of the facets of `body` with label `side`, gathered on every rank. It runs towards increasing R (direction 0)
-/// or Z (direction 1). Collective.
-PetscErrorCode GatherSurface(const Mesh &mesh, Side side, int body, int direction, SurfaceChain &chain);
+/// A reference position in words, for messages.
+std::string describe_place(int dim, const std::array<double, 3> &X);
+
+/// Slots of a cell's points in the lexicographic order of order 2, from those of its corners: the place of an edge, a
+/// face or the cell is the mean of its corners' (table.cpp).
+struct CellPoint {
+  PetscInt point, depth;
+  int slot; ///< 0 to 8 or 26
+};
+PetscErrorCode CellPoints(DM dm, int dim, PetscInt cell, std::vector<CellPoint> &points);
+
+/// Facets of `body` with label `side`, gathered on every rank, in an order that does not depend on the number of ranks.
+/// A chain runs towards increasing R (direction 0) or Z (direction 1). Collective.
+PetscErrorCode GatherSurface(const Mesh &mesh, Side side, int body, int direction, Surface &surface);
 
 } // namespace tribogel

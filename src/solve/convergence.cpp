@@ -41,7 +41,7 @@ PetscErrorCode Problem::LocateWorst(const double *f)
     worst.X = node.X;
     worst.body = node.body;
   }
-  PetscCallMPI(MPI_Bcast(worst.X.data(), 2, MPI_DOUBLE, peak.rank, comm));
+  PetscCallMPI(MPI_Bcast(worst.X.data(), 3, MPI_DOUBLE, peak.rank, comm));
   PetscCallMPI(MPI_Bcast(&worst.body, 1, MPI_INT, peak.rank, comm));
   PetscFunctionReturn(0);
 }

@@ -60,8 +60,8 @@ PetscErrorCode Problem::Diagnose(SNES snes, StepFailure &failure) const
     text << "the residual is not a number";
   } else {
     failure.kind = FailureKind::newton;
-    text << "Newton's " << (worst.group >= 0 ? group_names[worst.group] : "residual") << " stays at " << worst.ratio
-         << " times its tolerance near R = " << worst.X[0] << " mm, Z = " << worst.X[1] << " mm of the "
+    text << "Newton's " << (worst.group >= 0 ? group_names(mesh.dim)[worst.group] : "residual") << " stays at "
+         << worst.ratio << " times its tolerance near " << describe_place(mesh.dim, worst.X) << " of the "
          << (worst.body == top_body ? "top" : "bottom") << " gel";
   }
   failure.words = text.str();

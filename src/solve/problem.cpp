@@ -4,6 +4,7 @@
 #include "tribogel/math/sdirk2.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tribogel
 {
@@ -13,13 +14,13 @@ PetscErrorCode Problem::SetUp(MPI_Comm comm, const Scene &given)
   return SetUp(comm, given, meridian_blocks(given));
 }
 
-PetscErrorCode Problem::SetUp(MPI_Comm comm, const Scene &given, const std::vector<MeridianBlock> &blocks)
+PetscErrorCode Problem::SetUp(MPI_Comm comm, const Scene &given, const SerialMesh &serial)
 {
   PetscFunctionBeginUser;
   scene = given;
   PetscCall(events.Register());
   PetscCall(PetscLogEventBegin(events.mesh, 0, 0, 0, 0));
-  PetscCall(mesh.Build(comm, scene, blocks));
+  PetscCall(mesh.Build(comm, scene, serial));
   PetscCall(PetscLogEventEnd(events.mesh, 0, 0, 0, 0));
   PetscCall(Bulk::Create(mesh, scene, bulk));
   if (scene.has_top || scene.plate_contact) {
@@ -124,19 +125,41 @@ PlateFrames Problem::frames(double time, double step) const
   return frames;
 }
 
+namespace
+{
+
+/// Displacement, or its rate, of a node on the top plate that `now` moves, for a body held by the other plate. In the
+/// half plane an angle is an unknown; in 3-D the plate's rotation is (Q - 1) X.
+std::array<double, 3> driven_displacement(const Phase &now, double time, int dim, double L,
+                                          const std::array<double, 3> &X)
+{
+  const double angle = now.rotation(time), c = std::cos(angle), s = std::sin(angle);
+  if (dim == 2) return {0, L * angle, -now.approach(time)};
+  return {c * X[0] - s * X[1] - X[0], s * X[0] + c * X[1] - X[1], -now.approach(time)};
+}
+
+std::array<double, 3> driven_rate(const Phase &now, double time, int dim, double L, const std::array<double, 3> &X)
+{
+  const double angle = now.rotation(time), c = std::cos(angle), s = std::sin(angle);
+  if (dim == 2) return {0, L * now.rate, -now.approach_rate()};
+  return {-now.rate * (s * X[0] + c * X[1]), now.rate * (c * X[0] - s * X[1]), -now.approach_rate()};
+}
+
+} // namespace
+
 /// Unknowns are measured from the body's own plate, so that a bonded node does not move; only a gel that spans both
 /// plates sees the top plate move.
 void Problem::SetBoundary(double time, double *U, double *Udot) const
 {
-  const Phase &now = phase();
+  const double L = scene.twist_length();
   for (const Node &node : mesh.nodes) {
-    const bool plate = node.on(Side::top_plate) || node.on(Side::bottom_plate);
+    if (!node.prescribed) continue;
     const bool driven = node.on(Side::top_plate) && !scene.has_top;
-    const bool radial = node.on(Side::axis) || (plate && scene.plate_bond == PlateBond::glued);
-    const double L = scene.twist_length();
-    const double u[3] = {0, driven ? L * now.rotation(time) : 0, driven ? -now.approach(time) : 0};
-    const double rate[3] = {0, driven ? L * now.rate : 0, driven ? -now.approach_rate() : 0};
-    for (int i = radial ? 0 : 1; i < (plate ? 3 : (radial ? 1 : 0)); ++i) {
+    std::array<double, 3> u{}, rate{};
+    if (driven) u = driven_displacement(phase(), time, mesh.dim, L, node.X);
+    if (driven && Udot) rate = driven_rate(phase(), time, mesh.dim, L, node.X);
+    for (int i = 0; i < 3; ++i) {
+      if (!(node.prescribed >> i & 1u)) continue;
       U[node.displacement + i] = u[i];
       if (Udot) Udot[node.displacement + i] = rate[i];
     }

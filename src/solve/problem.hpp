@@ -4,6 +4,7 @@
 
 #include "bulk/bulk.hpp"
 #include "contact/contact.hpp"
+#include "mesh/meridian.hpp"
 #include "mesh/mesh.hpp"
 #include "solve/failure.hpp"
 #include "solve/log_events.hpp"
@@ -22,12 +23,16 @@ namespace tribogel
 /// Residuals are judged by group: three displacement and three traction components, each against the sum of the
 /// absolute forces that meet in it.
 inline constexpr int residual_groups = 6;
-inline constexpr const char *group_names[residual_groups] = {"radial force",
-                                                             "circumferential force",
-                                                             "axial force",
-                                                             "radial contact condition",
-                                                             "circumferential contact condition",
-                                                             "axial contact condition"};
+using GroupNames = std::array<const char *, residual_groups>;
+inline constexpr GroupNames group_names_of[2] = {
+    {"radial force", "circumferential force", "axial force", "radial contact condition",
+     "circumferential contact condition", "axial contact condition"},
+    {"force along x", "force along y", "force along z", "contact condition along x", "contact condition along y",
+     "contact condition along z"}};
+constexpr const GroupNames &group_names(int dim)
+{
+  return group_names_of[dim - 2];
+}
 
 struct SolveCounts {
   PetscInt accepted_steps = 0, rejected_steps = 0, failed_solves = 0;
@@ -39,7 +44,7 @@ struct SolveCounts {
 struct WorstResidual {
   double ratio = 0; ///< group norm over its tolerance
   int group = -1;
-  std::array<double, 2> X{}; ///< node of the group's largest entry, reference (R, Z) [mm]
+  std::array<double, 3> X{}; ///< of the node of the group's largest entry [mm]
   int body = 0;
 };
 
@@ -62,7 +67,11 @@ public:
 
   /// The same with bodies of another outline than the scene's cylinders, whose radii and heights then only scale (the
   /// twist's length, coefficients of friction).
-  PetscErrorCode SetUp(MPI_Comm comm, const Scene &scene, const std::vector<MeridianBlock> &blocks);
+  PetscErrorCode SetUp(MPI_Comm comm, const Scene &scene, const SerialMesh &serial);
+  PetscErrorCode SetUp(MPI_Comm comm, const Scene &scene, const std::vector<MeridianBlock> &blocks)
+  {
+    return SetUp(comm, scene, serial_mesh(blocks));
+  }
 
   PetscErrorCode SetFromOptions(); ///< TS, SNES, KSP, PC
 

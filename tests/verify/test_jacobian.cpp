@@ -94,7 +94,8 @@ void check_matrix(Probe &probe, const Values &U, std::mt19937 &random)
 {
   const auto worst = errors(probe, U, random);
   for (int g = 0; g < residual_groups; ++g) {
-    EXPECT_LE(worst[g], relative_tolerance) << group_names[g] << ", order " << probe.problem.mesh.order;
+    EXPECT_LE(worst[g], relative_tolerance)
+        << group_names(probe.problem.mesh.dim)[g] << ", order " << probe.problem.mesh.order;
   }
 }
 
