@@ -128,9 +128,9 @@ PetscErrorCode Contact::Results(const PlateFrames &frames, const double *U, cons
   PetscFunctionBeginUser;
   results = {};
   for (GelContact &gel : gels) {
-    SurfaceResults surface{&gel.model(), {}, {}};
+    SurfaceResults surface;
     double force, torque;
-    PetscCall(gel.Results(frames, U, Udot, surface.state, surface.nodes, force, torque));
+    PetscCall(gel.Results(frames, U, Udot, surface, force, torque));
     results.force += force;
     results.torque += torque;
     results.surfaces.push_back(std::move(surface));

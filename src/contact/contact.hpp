@@ -8,13 +8,6 @@
 namespace tribogel
 {
 
-/// What a slave curve of the top gel looks like at one state; the same on every rank.
-struct SurfaceResults {
-  const AxisymmetricContact *model;
-  ContactState<double> state;
-  std::vector<NodeResult> nodes;
-};
-
 struct ContactResults {
   std::vector<SurfaceResults> surfaces; ///< the lower face, then the wall (if it may touch); empty for a single gel
   double force = 0, torque = 0;         ///< that the gels transmit, signed as the plate's reactions [N, N mm]
@@ -55,7 +48,7 @@ public:
   double WallForce(const double *U) const;
 
   bool between_gels() const { return !gels.empty(); }
-  const AxisymmetricContact &model() const { return gels.front().model(); } ///< of the lower face
+  const GelContact &lower_face() const { return gels.front(); }
   double overhang() const { return gels.front().overhang; }
 
 private:

@@ -16,29 +16,76 @@ namespace
 
 /// A slave facet that hangs over the master's edge presses on the master's extension; that is a good picture of a rim
 /// that only just overhangs, and of nothing else.
-constexpr double largest_overhang = 0.1; // of the slave's length
+constexpr double largest_overhang = 0.1; // of the slave's length or area
 
-std::string describe(MortarStatus status, const SurfaceNode &near, bool wall)
+/// Rows and columns of a node's block in the order of NodeBlock::jacobian.
+ContactBlock unknowns_of(int a, const NodeBlock &block)
+{
+  ContactBlock all;
+  for (int k = 0; k < block.slave_rows; ++k)
+    all.rows.push_back({ContactUnknown::slave, block.slave_nodes[static_cast<std::size_t>(k)]});
+  for (int b : block.slave_nodes) all.columns.push_back({ContactUnknown::slave, b});
+  for (int m : block.master_nodes) {
+    all.rows.push_back({ContactUnknown::master, m});
+    all.columns.push_back({ContactUnknown::master, m});
+  }
+  all.rows.push_back({ContactUnknown::multiplier, a});
+  all.columns.push_back({ContactUnknown::multiplier, a});
+  return all;
+}
+
+std::string describe(MortarStatus status, int dim, const SurfaceNode &near, bool wall)
 {
   const char *why = status == MortarStatus::folded          ? "a contact facet is folded"
                     : status == MortarStatus::no_projection ? "a contact facet cannot be projected"
                                                             : "a contact facet meets nothing";
-  std::ostringstream text;
-  text << why << " near R = " << near.X[0] << " mm, Z = " << near.X[1] << " mm of the top gel's "
-       << (wall ? "side wall" : "lower face");
-  return text.str();
+  return std::string(why) + " near " + describe_place(dim, near.X) + " of the top gel's " +
+         (wall ? "side wall" : "lower face");
+}
+
+/// The Jacobian's blocks of slave nodes first <= a < last, and the rows and columns they can have; a curve's come node
+/// by node.
+template <class Emit>
+void emit_jacobian(const AxisymmetricContact &contact, int first, int last, const PolynomialFriction<double> &law,
+                   const Emit &emit)
+{
+  NodeBlock block;
+  for (int a = first; a < last; ++a) {
+    contact.node(a, law, block);
+    ContactBlock all = unknowns_of(a, block);
+    all.values = block.jacobian;
+    emit(all);
+  }
+}
+
+template <class Emit>
+void emit_jacobian(const SolidContact &contact, int, int, const PolynomialFriction<double> &law, const Emit &emit)
+{
+  contact.jacobian(law, emit);
+}
+
+template <class Emit>
+void emit_pattern(const AxisymmetricContact &contact, FacetPairs pairs, int first, int last, const Emit &emit)
+{
+  for (int a = first; a < last; ++a) emit(unknowns_of(a, contact.pattern(a, pairs)));
+}
+
+template <class Emit>
+void emit_pattern(const SolidContact &contact, const SolidContact::Pairs &pairs, int first, int last, const Emit &emit)
+{
+  contact.pattern(pairs, first, last, emit);
 }
 
 } // namespace
 
-PetscErrorCode GelContact::SetUp(MPI_Comm on, const Mesh &both, const Scene &scene, Surface curve, bool is_wall)
+PetscErrorCode GelContact::SetUp(MPI_Comm on, const Mesh &both, const Scene &scene, Surface surface, bool is_wall)
 {
   PetscFunctionBeginUser;
   comm = on;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCallMPI(MPI_Comm_size(comm, &size));
   mesh = &both;
-  slave = std::move(curve);
+  slave = std::move(surface);
   wall = is_wall;
   friction = scene.friction;
   parameters.order = mesh->order;
@@ -48,24 +95,28 @@ PetscErrorCode GelContact::SetUp(MPI_Comm on, const Mesh &both, const Scene &sce
   parameters.starts_at_crease = wall;
   if (wall) slave.node.front().multiplier = false; // it belongs to the lower face
   for (const SurfaceNode &node : slave.node) parameters.carries_multiplier.push_back(node.multiplier);
-  Touch(wall ? 0 : static_cast<int>(slave.facet.size()));
+  if (mesh->dim == 2)
+    Touch(wall ? 0 : static_cast<int>(slave.facet.size()));
+  else
+    contact = SolidContact(SolidGeometry(quads_of(slave), quads_of(mesh->master),
+                                         {parameters.order, parameters.softer_modulus, parameters.carries_multiplier}));
   const auto nodes = static_cast<int>(slave.node.size());
   first = static_cast<int>(static_cast<long>(nodes) * rank / size);
   last = static_cast<int>(static_cast<long>(nodes) * (rank + 1) / size);
-  margin = contact.reference().slave_length / static_cast<double>(slave.facet.size());
+  margin = std::visit([](const auto &model) { return model.facet_size(); }, contact);
 
   ContactState<double> rest;
   const std::vector<double> zero(9 * (slave.node.size() + mesh->master.node.size()), 0.0);
   Unpack({-scene.initial_gap}, zero, 1, rest);
-  pattern = contact.candidate_pairs(rest, margin);
+  pattern = std::visit([&](const auto &model) { return model.candidate_pairs(rest, margin); }, contact);
   PetscFunctionReturn(0);
 }
 
-/// Rebuilds the operator for contact of the first `facets` slave facets.
+/// Rebuilds the operator of a curve for contact of the first `facets` slave facets.
 void GelContact::Touch(int facets)
 {
   parameters.facets_in_contact = facets;
-  contact = AxisymmetricContact(ContactGeometry(reference_of(slave), reference_of(mesh->master), parameters));
+  contact = AxisymmetricContact(ContactGeometry(chain_of(slave), chain_of(mesh->master), parameters));
 }
 
 PetscErrorCode GelContact::BeginStep(const PlateFrames &frames, const double *U)
@@ -74,13 +125,13 @@ PetscErrorCode GelContact::BeginStep(const PlateFrames &frames, const double *U)
   PetscFunctionBeginUser;
   if (!wall) PetscFunctionReturn(0);
   PetscCall(Gather(frames, U, nullptr, 1, state));
-  const ContactGeometry &geometry = contact.reference();
+  const ContactGeometry &geometry = curve().reference();
   const LineChain whole(geometry.slave.facets, mesh->order + 1, static_cast<int>(geometry.slave.X.size()));
   int facets = rolling_facets(whole, positions(geometry.slave, state.slave), geometry.master_chain,
                               positions(geometry.master, state.master));
   if (facets != geometry.slave_chain.facet_count()) Touch(facets);
   while (facets > 0) { // only facets that can be projected now
-    const MortarReport report = contact.update(state, contact.candidate_pairs(state, 0), false);
+    const MortarReport report = curve().update(state, curve().candidate_pairs(state, 0), false);
     if (report.status == MortarStatus::ok) break;
     facets = report.facet;
     Touch(facets);
@@ -92,7 +143,7 @@ PetscErrorCode GelContact::BeginStep(const PlateFrames &frames, const double *U)
 /// A wall facet that the last attempt could not project sits out the next.
 void GelContact::BeginAttempt()
 {
-  if (wall && failed_facet < contact.reference().slave_chain.facet_count()) Touch(failed_facet);
+  if (wall && failed_facet < curve().reference().slave_chain.facet_count()) Touch(failed_facet);
 }
 
 /// The nine values of each node (u, rate, multiplier; slave nodes first) as the model wants them.
@@ -116,6 +167,8 @@ void GelContact::Unpack(const PlateFrames &frames, const std::vector<double> &va
   state.slave.travel_rate = frames.top_travel_rate;
   state.slave.rotation_rate = frames.top_rate;
   state.master.rotation_rate = frames.bottom_rate;
+  state.slave.rotation = frames.top_rotation;
+  state.master.rotation = frames.bottom_rotation;
 }
 
 PetscErrorCode GelContact::Gather(const PlateFrames &frames, const double *U, const double *Udot, double shift,
@@ -143,8 +196,9 @@ PetscErrorCode GelContact::Gather(const PlateFrames &frames, const double *U, co
 PetscErrorCode GelContact::Evaluate(const ContactState<double> &state, bool derivatives, std::string &failure)
 {
   PetscFunctionBeginUser;
-  const auto pairs = contact.candidate_pairs(state, 0);
-  const MortarReport report = contact.update(state, pairs, derivatives, first, last);
+  const MortarReport report = std::visit(
+      [&](auto &model) { return model.update(state, model.candidate_pairs(state, 0), derivatives, first, last); },
+      contact);
   struct {
     int status, facet;
   } worst{static_cast<int>(report.status), report.facet};
@@ -154,12 +208,12 @@ PetscErrorCode GelContact::Evaluate(const ContactState<double> &state, bool deri
   PetscCallMPI(MPI_Allreduce(&beyond, &overhang, 1, MPI_DOUBLE, MPI_SUM, comm));
   if (worst.status != static_cast<int>(MortarStatus::ok)) {
     const auto &facet = slave.facet[static_cast<std::size_t>(worst.facet)];
-    failure = describe(static_cast<MortarStatus>(worst.status), slave.node[facet[0]], wall);
+    failure = describe(static_cast<MortarStatus>(worst.status), mesh->dim, slave.node[facet[0]], wall);
     failed_facet = worst.facet;
-  } else if (overhang > largest_overhang * contact.reference().slave_length) {
+  } else if (overhang > largest_overhang * std::visit([](const auto &model) { return model.slave_size(); }, contact)) {
     std::ostringstream text;
-    text << "the top gel hangs over the edge of the bottom gel by " << overhang << " mm, more than "
-         << 100 * largest_overhang << " % of its face";
+    text << "the top gel hangs over the edge of the bottom gel by " << overhang << (mesh->dim == 2 ? " mm" : " mm^2")
+         << ", more than " << 100 * largest_overhang << " % of its face";
     failure = text.str();
   }
   PetscFunctionReturn(0);
@@ -185,12 +239,17 @@ PetscErrorCode GelContact::AddResidual(const PlateFrames &frames, const double *
   NodeBlock block;
   for (int a = first; a < last; ++a) {
     if (!slave.node[a].multiplier) continue;
-    contact.node(a, friction, block);
     const Vector3<double> &lambda = state.multiplier[a];
-    const auto &constants = contact.reference().nodes[a];
-    const double D = constants.carries ? constants.weight() : constants.extent,
-                 in_plane = std::hypot(lambda[0], lambda[2]);
-    const double extent[3] = {D * in_plane, D * std::abs(lambda[1]), D * in_plane};
+    const double D = std::visit(
+        [&](const auto &model) {
+          model.node(a, friction, block);
+          const auto &constants = model.constants(a);
+          return constants.carries ? constants.weight() : constants.extent;
+        },
+        contact);
+    // In the half plane the tangential condition is one of its own, in 3-D friction acts in all directions.
+    const double in_plane = D * (mesh->dim == 2 ? std::hypot(lambda[0], lambda[2]) : lambda.norm());
+    const double extent[3] = {in_plane, mesh->dim == 2 ? D * std::abs(lambda[1]) : in_plane, in_plane};
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < block.slave_rows; ++k) {
         const double value = block.residual[3 * k + i];
@@ -220,43 +279,43 @@ PetscErrorCode GelContact::AddResidual(const PlateFrames &frames, const double *
   PetscFunctionReturn(0);
 }
 
-/// Global rows and columns of a slave node's block, in the order of NodeBlock::jacobian.
-void GelContact::BlockIndices(int a, const NodeBlock &block, std::vector<PetscInt> &rows,
-                              std::vector<PetscInt> &columns) const
+void GelContact::Indices(const std::vector<ContactUnknown> &unknowns, std::vector<PetscInt> &indices) const
 {
-  const auto append = [](std::vector<PetscInt> &list, const std::array<PetscInt, 3> &index) {
-    list.insert(list.end(), index.begin(), index.end());
-  };
-  rows.clear();
-  columns.clear();
-  for (int k = 0; k < block.slave_rows; ++k) append(rows, slave.node[block.slave_nodes[k]].displacement);
-  for (int b : block.slave_nodes) append(columns, slave.node[b].displacement);
-  for (int m : block.master_nodes) {
-    append(rows, mesh->master.node[m].displacement);
-    append(columns, mesh->master.node[m].displacement);
+  indices.clear();
+  for (const ContactUnknown &unknown : unknowns) {
+    const SurfaceNode &node =
+        unknown.kind == ContactUnknown::master ? mesh->master.node[unknown.node] : slave.node[unknown.node];
+    const auto &own = unknown.kind == ContactUnknown::multiplier ? node.traction : node.displacement;
+    indices.insert(indices.end(), own.begin(), own.end());
   }
-  append(rows, slave.node[a].traction);
-  append(columns, slave.node[a].traction);
+}
+
+/// Adds the block's values to the matrix, zeros if it has none.
+PetscErrorCode GelContact::Add(const ContactBlock &block, Mat A) const
+{
+  std::vector<PetscInt> rows, columns;
+  std::vector<double> zeros;
+  PetscFunctionBeginUser;
+  Indices(block.rows, rows);
+  Indices(block.columns, columns);
+  if (block.values.size() == 0) zeros.assign(rows.size() * columns.size(), 0.0);
+  PetscCall(MatSetValues(A, static_cast<PetscInt>(rows.size()), rows.data(), static_cast<PetscInt>(columns.size()),
+                         columns.data(), zeros.empty() ? block.values.data() : zeros.data(), ADD_VALUES));
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode GelContact::AddJacobian(const PlateFrames &frames, const double *U, const double *Udot, double shift,
                                        Mat A, std::string &failure)
 {
   ContactState<double> state;
-  std::vector<PetscInt> rows, columns;
-  NodeBlock block;
+  PetscErrorCode worst = 0;
   PetscFunctionBeginUser;
   PetscCall(Gather(frames, U, Udot, shift, state));
   PetscCall(Evaluate(state, true, failure));
   if (!failure.empty()) PetscFunctionReturn(0);
-  for (int a = first; a < last; ++a) {
-    if (!slave.node[a].multiplier) continue;
-    contact.node(a, friction, block);
-    BlockIndices(a, block, rows, columns);
-    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values = block.jacobian;
-    PetscCall(MatSetValues(A, static_cast<PetscInt>(rows.size()), rows.data(), static_cast<PetscInt>(columns.size()),
-                           columns.data(), values.data(), ADD_VALUES));
-  }
+  const auto add = [&](const ContactBlock &block) { worst = std::max(worst, Add(block, A)); };
+  std::visit([&](const auto &model) { emit_jacobian(model, first, last, friction, add); }, contact);
+  PetscCall(worst);
   PetscFunctionReturn(0);
 }
 
@@ -265,62 +324,87 @@ PetscErrorCode GelContact::UpdateCandidates(const PlateFrames &frames, const dou
   ContactState<double> state;
   PetscFunctionBeginUser;
   PetscCall(Gather(frames, U, nullptr, 1, state));
-  const auto pairs = contact.candidate_pairs(state, 0);
+  const auto candidates = [&](double reach) {
+    return std::visit([&](const auto &model) { return model.candidate_pairs(state, reach); }, contact);
+  };
+  const auto pairs = candidates(0);
   covered = std::includes(pattern.begin(), pattern.end(), pairs.begin(), pairs.end());
-  if (!covered) pattern = contact.candidate_pairs(state, margin);
+  if (!covered) pattern = candidates(margin);
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode GelContact::AddPattern(Mat A) const
 {
-  std::vector<PetscInt> rows, columns;
+  PetscErrorCode worst = 0;
   PetscFunctionBeginUser;
-  for (int a = first; a < last; ++a) {
-    if (!slave.node[a].multiplier) continue;
-    BlockIndices(a, contact.pattern(a, pattern), rows, columns);
-    const std::vector<double> zeros(rows.size() * columns.size(), 0.0);
-    PetscCall(MatSetValues(A, static_cast<PetscInt>(rows.size()), rows.data(), static_cast<PetscInt>(columns.size()),
-                           columns.data(), zeros.data(), ADD_VALUES));
-  }
+  const auto add = [&](const ContactBlock &block) { worst = std::max(worst, Add(block, A)); };
+  std::visit([&](const auto &model) { emit_pattern(model, pattern, first, last, add); }, contact);
+  PetscCall(worst);
   PetscFunctionReturn(0);
 }
 
 void GelContact::AddRoundOff(double *magnitude) const
 {
   double extent = 0;
-  for (const SurfaceNode &node : slave.node) extent = std::max({extent, node.X[0], std::abs(node.X[1])});
+  for (const SurfaceNode &node : slave.node)
+    for (double x : node.X) extent = std::max(extent, std::abs(x));
   for (std::size_t a = 0; a < slave.node.size(); ++a) {
     const SurfaceNode &node = slave.node[a];
     if (node.local < 0 || !node.multiplier) continue;
-    const auto &constants = contact.reference().nodes[a];
+    const double stiffness = std::visit(
+        [&](const auto &model) {
+          const auto &constants = model.constants(static_cast<int>(a));
+          return constants.D * constants.c_N;
+        },
+        contact);
     const PetscInt row = mesh->nodes[node.local].traction;
-    for (int i = 0; i < 3; ++i)
-      magnitude[row + i] += std::numeric_limits<double>::epsilon() * constants.D * constants.c_N * extent;
+    for (int i = 0; i < 3; ++i) magnitude[row + i] += std::numeric_limits<double>::epsilon() * stiffness * extent;
   }
 }
 
-PetscErrorCode GelContact::Results(const PlateFrames &frames, const double *U, const double *Udot,
-                                   ContactState<double> &state, std::vector<NodeResult> &results, double &force,
-                                   double &torque)
+std::vector<ContactStatus> GelContact::statuses() const
 {
+  std::vector<ContactStatus> all;
+  NodeBlock block;
+  for (int a = 0; a < static_cast<int>(slave.node.size()); ++a)
+    std::visit(
+        [&](const auto &model) {
+          if (!model.constants(a).carries) return;
+          model.node(a, friction, block);
+          all.push_back(block.status);
+        },
+        contact);
+  return all;
+}
+
+PetscErrorCode GelContact::Results(const PlateFrames &frames, const double *U, const double *Udot,
+                                   SurfaceResults &results, double &force, double &torque)
+{
+  ContactState<double> state;
   PetscFunctionBeginUser;
   PetscCall(Gather(frames, U, Udot, 1, state));
-  const auto pairs = contact.candidate_pairs(state, 0);
-  contact.update(state, pairs, false);
-  results.clear();
+  results = {};
   force = torque = 0;
-  for (int a = 0; a < static_cast<int>(slave.node.size()); ++a) {
-    NodeResult result = contact.result(a, friction);
-    if (!result.carries && slave.node[a].multiplier) { // a part of the wall that meets nothing
-      result.carries = true;
-      result.pressure = 0;
-      result.nominal = result.cauchy = Vector3<double>::Zero();
-    }
-    results.push_back(result);
-    const auto [axial, turning] = contact.resultant(a);
-    force += axial;
-    torque -= turning;
-  }
+  std::visit(
+      [&](auto &model) {
+        model.update(state, model.candidate_pairs(state, 0), false);
+        for (int a = 0; a < static_cast<int>(slave.node.size()); ++a) {
+          NodeResult result = model.result(a, friction);
+          if (!result.carries && slave.node[a].multiplier) { // a part of the wall that meets nothing
+            result.carries = true;
+            result.pressure = 0;
+            result.nominal = result.cauchy = Vector3<double>::Zero();
+          }
+          results.nodes.push_back(result);
+          results.slave.push_back(model.slave_place(a));
+          const auto [axial, turning] = model.resultant(a);
+          force += axial;
+          torque -= turning;
+        }
+        for (int b = 0; b < static_cast<int>(mesh->master.node.size()); ++b)
+          results.master.push_back(model.master_place(b));
+      },
+      contact);
   PetscFunctionReturn(0);
 }
 

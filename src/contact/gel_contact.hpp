@@ -1,18 +1,26 @@
-/// Contact of a slave curve of the top gel (its lower face, or its wall that may roll) with the bottom gel in the PETSc
-/// world: both surfaces are small, so every rank holds their nodal values; the slave nodes are shared out evenly,
-/// whatever the bulk's partition is, and the forces go home by one reduction.
+/// Contact of a slave surface of the top gel (its lower face, or its wall that may roll) with the bottom gel in the
+/// PETSc world, in the half plane or in 3-D: both surfaces are small, so every rank holds their nodal values; the slave
+/// nodes are shared out evenly, whatever the bulk's partition is, and the forces go home by one reduction.
 #pragma once
 
 #include "contact/plate_frames.hpp"
 #include "mesh/mesh.hpp"
 #include "tribogel/contact/axisymmetric_contact.hpp"
+#include "tribogel/contact/solid_contact.hpp"
 
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace tribogel
 {
+
+/// What a slave surface of the top gel looks like at one state; the same on every rank.
+struct SurfaceResults {
+  std::vector<NodeResult> nodes;           ///< of the slave
+  std::vector<SurfacePlace> slave, master; ///< where the nodes are
+};
 
 class GelContact
 {
@@ -45,11 +53,14 @@ public:
 
   /// Nodal results of the slave, and force [N] and torque [N mm] that the tractions transmit, signed as the plate's
   /// reactions; the same on every rank. Collective.
-  PetscErrorCode Results(const PlateFrames &frames, const double *U, const double *Udot, ContactState<double> &state,
-                         std::vector<NodeResult> &results, double &force, double &torque);
+  PetscErrorCode Results(const PlateFrames &frames, const double *U, const double *Udot, SurfaceResults &results,
+                         double &force, double &torque);
 
-  const AxisymmetricContact &model() const { return contact; }
-  double overhang = 0; ///< of the slave beyond the master's edge in the last evaluation, reference length [mm]
+  /// Of the nodes that carry a multiplier, in the last evaluation of a residual or Jacobian by a single rank.
+  std::vector<ContactStatus> statuses() const;
+
+  /// Of the slave beyond the master's edge in the last evaluation, reference length or area [mm or mm^2].
+  double overhang = 0;
 
 private:
   PetscErrorCode Gather(const PlateFrames &frames, const double *U, const double *Udot, double shift,
@@ -57,8 +68,10 @@ private:
   void Unpack(const PlateFrames &frames, const std::vector<double> &values, double shift,
               ContactState<double> &state) const;
   PetscErrorCode Evaluate(const ContactState<double> &state, bool derivatives, std::string &failure);
-  void BlockIndices(int a, const NodeBlock &block, std::vector<PetscInt> &rows, std::vector<PetscInt> &columns) const;
+  void Indices(const std::vector<ContactUnknown> &unknowns, std::vector<PetscInt> &indices) const;
+  PetscErrorCode Add(const ContactBlock &block, Mat A) const;
   void Touch(int facets);
+  AxisymmetricContact &curve() { return std::get<AxisymmetricContact>(contact); }
 
   MPI_Comm comm = MPI_COMM_NULL;
   int rank = 0, size = 1;
@@ -66,10 +79,10 @@ private:
   const Mesh *mesh = nullptr;
   Surface slave;
   bool wall = false;
-  int failed_facet = 0; ///< first wall facet that could not be evaluated in this step
-  ContactParameters parameters;
+  int failed_facet = 0;         ///< first wall facet that could not be evaluated in this step
+  ContactParameters parameters; ///< of a curve
   PolynomialFriction<double> friction;
-  AxisymmetricContact contact;
+  std::variant<AxisymmetricContact, SolidContact> contact;
   std::vector<std::pair<int, int>> pattern; ///< pairs of facets that the matrix has room for
   double margin = 0;                        ///< sliding that the pattern allows for [mm]
 };

@@ -18,7 +18,7 @@ void PlateContact::SetUp(const Mesh &both, const Scene &scene, int body, const S
   ContactParameters parameters;
   parameters.order = mesh->order;
   parameters.softer_modulus = specimen.material.equilibrium.shear_modulus();
-  const ContactGeometry geometry(reference_of(wall), {}, parameters);
+  const ContactGeometry geometry(chain_of(wall), {}, parameters);
   const double foot = wall.node[wall.facet.front()[0]].X[1], head = wall.node[wall.facet.back()[1]].X[1];
   extent = scene.bottom.height + (scene.has_top ? scene.initial_gap + scene.top.height : 0);
   for (std::size_t a = 0; a < wall.node.size(); ++a) {

@@ -3,15 +3,26 @@
 
 #include "mesh/mesh.hpp"
 #include "tribogel/contact/axisymmetric_state.hpp"
+#include "tribogel/contact/quad_facet.hpp"
 
 namespace tribogel
 {
 
-inline SurfaceReference reference_of(const Surface &chain)
+/// In the half plane.
+inline SurfaceReference chain_of(const Surface &chain)
 {
   SurfaceReference surface;
   for (const SurfaceNode &node : chain.node) surface.X.push_back({node.X[0], node.X[1]});
   for (const auto &facet : chain.facet) surface.facets.push_back({facet[0], facet[1], facet[2]});
+  return surface;
+}
+
+/// In 3-D.
+inline QuadReference quads_of(const Surface &face)
+{
+  QuadReference surface;
+  for (const SurfaceNode &node : face.node) surface.X.emplace_back(node.X[0], node.X[1], node.X[2]);
+  surface.facets = face.facet;
   return surface;
 }
 

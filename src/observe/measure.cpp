@@ -58,7 +58,7 @@ void average(const Problem &problem, const std::vector<SurfaceResults> &surfaces
       area_sum += A * mu;
       force += A * node.pressure;
       friction += A * node.pressure * mu;
-      radius = std::max(radius, position(surface.model->reference().slave, surface.state.slave, static_cast<int>(a)).r);
+      radius = std::max(radius, surface.slave[a].current[0]);
     }
   if (count == 0) return;
   const Scene &scene = problem.scene;
@@ -88,17 +88,16 @@ const char *name_of(ContactStatus status)
   return status == ContactStatus::open ? "open" : status == ContactStatus::stick ? "stick" : "slip";
 }
 
-ProfileRow row_at(const char *surface, const SurfaceReference &reference, const SurfaceState<double> &state, int a,
-                  double twist_length, double rotation)
+ProfileRow row_at(const char *surface, const SurfacePlace &place, double rotation)
 {
-  const PlanePoint<double> x = position(reference, state, a);
   ProfileRow row{};
   row.surface = surface;
-  row.reference_r = reference.X[a].r;
-  row.reference_z = reference.X[a].z;
-  row.r = x.r;
-  row.theta = state.u[a][1] / twist_length + rotation;
-  row.z = x.z;
+  row.reference_r = place.reference[0];
+  row.reference_theta = place.reference[1];
+  row.reference_z = place.reference[2];
+  row.r = place.current[0];
+  row.theta = place.current[1] + rotation;
+  row.z = place.current[2];
   row.pressure = row.traction_radial = row.traction_circumferential = row.sliding_velocity = row.mu = undefined;
   row.status = "nan";
   return row;
@@ -106,10 +105,9 @@ ProfileRow row_at(const char *surface, const SurfaceReference &reference, const 
 
 void tabulate(const Problem &problem, const SurfaceResults &surface, bool wall, std::vector<ProfileRow> &profile)
 {
-  const ContactGeometry &geometry = surface.model->reference();
-  const double L = problem.scene.twist_length(), rotation = problem.phase().rotation(problem.state.time);
+  const double rotation = problem.phase().rotation(problem.state.time);
   for (std::size_t a = wall ? 1 : 0; a < surface.nodes.size(); ++a) { // a wall starts at a node of the face
-    ProfileRow row = row_at("top", geometry.slave, surface.state.slave, static_cast<int>(a), L, rotation);
+    ProfileRow row = row_at("top", surface.slave[a], rotation);
     const NodeResult &node = surface.nodes[a];
     if (node.carries) {
       row.pressure = node.pressure;
@@ -123,16 +121,13 @@ void tabulate(const Problem &problem, const SurfaceResults &surface, bool wall, 
   }
 }
 
-/// The top gel's lower face from the axis to its rim and the lower half of its wall upwards, then the bottom gel's
-/// face.
+/// The top gel's lower face and the part of its wall that may roll, then the bottom gel's face; curves from the axis
+/// outwards and upwards.
 void tabulate(const Problem &problem, const std::vector<SurfaceResults> &surfaces, std::vector<ProfileRow> &profile)
 {
   for (const SurfaceResults &surface : surfaces) tabulate(problem, surface, &surface != &surfaces.front(), profile);
-  const ContactGeometry &geometry = surfaces.front().model->reference();
   const double rotation = problem.scene.bottom_plate_rate * problem.state.time;
-  for (std::size_t a = 0; a < geometry.master.X.size(); ++a)
-    profile.push_back(row_at("bottom", geometry.master, surfaces.front().state.master, static_cast<int>(a),
-                             problem.scene.twist_length(), rotation));
+  for (const SurfacePlace &place : surfaces.front().master) profile.push_back(row_at("bottom", place, rotation));
 }
 
 } // namespace

@@ -25,11 +25,11 @@ struct Measurement {
   double torque_mismatch() const { return torque - contact_torque; }
 };
 
-/// One node of a contact surface at a phase's end, in the space-fixed frame.
+/// One node of a contact surface at a phase's end: r about the axis of its own plate, theta in space.
 struct ProfileRow {
   const char *surface;
-  double reference_r, reference_z; ///< [mm]; the reference angle is 0
-  double r, theta, z;              ///< [mm], [rad]
+  double reference_r, reference_theta, reference_z;                                               ///< [mm], [rad]
+  double r, theta, z;                                                                             ///< [mm], [rad]
   double pressure = undefined, traction_radial = undefined, traction_circumferential = undefined; ///< Cauchy [MPa]
   double sliding_velocity = undefined;                                                            ///< [mm/s]
   double mu = undefined;

@@ -190,9 +190,9 @@ void Recorder::write_profile(double time, int phase)
 {
   if (!profile.is_open()) return;
   for (const ProfileRow &row : last_profile)
-    profile << comma_separated(time, phase, row.surface, row.reference_r, 0.0, row.reference_z, row.r, row.theta, row.z,
-                               row.pressure, row.traction_radial, row.traction_circumferential, row.sliding_velocity,
-                               row.mu, row.status)
+    profile << comma_separated(time, phase, row.surface, row.reference_r, row.reference_theta, row.reference_z, row.r,
+                               row.theta, row.z, row.pressure, row.traction_radial, row.traction_circumferential,
+                               row.sliding_velocity, row.mu, row.status)
             << '\n';
   profile.flush();
 }

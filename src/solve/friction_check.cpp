@@ -41,7 +41,7 @@ FrictionCheck look(const Scene &scene, const ContactResults &results, double ste
       if (mu < found.lowest) {
         found.lowest = mu;
         found.at_speed = v;
-        found.at_radius = position(surface.model->reference().slave, surface.state.slave, static_cast<int>(a)).r;
+        found.at_radius = surface.slave[a].current[0];
       }
     }
   return found;

@@ -121,6 +121,8 @@ PlateFrames Problem::frames(double time, double step) const
   frames.top_travel_rate = steady() ? 0 : -now.approach_rate();
   frames.top_rate = now.rate;
   frames.bottom_rate = scene.bottom_plate_rate;
+  frames.top_rotation = now.rotation(time);
+  frames.bottom_rotation = scene.bottom_plate_rate * time;
   if (step > 0) frames.step = step;
   return frames;
 }

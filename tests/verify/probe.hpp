@@ -53,13 +53,7 @@ public:
   std::array<int, 3> statuses() const
   {
     std::array<int, 3> count{};
-    NodeBlock block;
-    const AxisymmetricContact &model = problem.contact->model();
-    for (std::size_t a = 0; a < model.reference().nodes.size(); ++a) {
-      if (!model.reference().nodes[a].carries) continue;
-      model.node(static_cast<int>(a), problem.scene.friction, block);
-      ++count[static_cast<std::size_t>(block.status)];
-    }
+    for (ContactStatus status : problem.contact->lower_face().statuses()) ++count[static_cast<std::size_t>(status)];
     return count;
   }
 

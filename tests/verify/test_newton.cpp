@@ -43,13 +43,7 @@ public:
     const double size = norm(Probe::values(self.problem.magnitude));
     const double rounding = norm(Probe::values(self.problem.round_off)) + std::numeric_limits<double>::epsilon() * size;
     Iterate now{residual, 16 * rounding, {}};
-    NodeBlock block;
-    const AxisymmetricContact &model = self.problem.contact->model();
-    for (std::size_t a = 0; a < model.reference().nodes.size(); ++a) {
-      if (!model.reference().nodes[a].carries) continue;
-      model.node(static_cast<int>(a), self.problem.scene.friction, block);
-      now.active.push_back(block.status);
-    }
+    now.active = self.problem.contact->lower_face().statuses();
     self.iterates.push_back(std::move(now));
     return 0;
   }

@@ -70,6 +70,22 @@ public:
     return {force[2], x[a].r * force[1]};
   }
 
+  SurfacePlace slave_place(int a) const
+  {
+    const PlanePoint<double> &X = geometry.slave.X[a];
+    return {{X.r, 0, X.z}, {x[a].r, now.slave.u[a][1] / geometry.twist_length, x[a].z}};
+  }
+  SurfacePlace master_place(int b) const
+  {
+    const PlanePoint<double> &X = geometry.master.X[b];
+    return {{X.r, 0, X.z}, {y[b].r, now.master.u[b][1] / geometry.twist_length, y[b].z}};
+  }
+
+  // What both models' operators tell of the slave: a node's constants, the curve's size and that of a facet.
+  const ContactGeometry::Node &constants(int a) const { return geometry.nodes[a]; }
+  double slave_size() const { return geometry.slave_length; } ///< [mm]
+  double facet_size() const { return geometry.slave_length / static_cast<double>(geometry.slave.facets.size()); }
+
 private:
   ContactGeometry geometry;
   ContactState<double> now;

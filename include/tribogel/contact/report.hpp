@@ -23,7 +23,14 @@ struct MortarReport {
   double overhang = 0;
 };
 
-/// What observers want to know of a slave node. NaN where no multiplier is carried.
+/// Where a node of a surface is, about the axis of its body's plate and in the frame that turns with it: (r [mm], theta
+/// [rad], z [mm]).
+struct SurfacePlace {
+  Vector3<double> reference, current;
+};
+
+/// What observers want to know of a slave node. Vectors are in the node's own frame (r, theta, z). NaN where no
+/// multiplier is carried.
 struct NodeResult {
   bool carries;
   ContactStatus status;

@@ -74,6 +74,27 @@ public:
     return {force[2], placed.x[a].cross(force)[2]};
   }
 
+  SurfacePlace slave_place(int a) const
+  {
+    Vector3<double> at = geometry.slave.X[a] + now.slave.u[a];
+    at[2] += now.slave.travel;
+    return place_about_axis(geometry.slave.X[a], at);
+  }
+  SurfacePlace master_place(int b) const
+  {
+    Vector3<double> at = geometry.master.X[b] + now.master.u[b];
+    at[2] += now.master.travel;
+    return place_about_axis(geometry.master.X[b], at);
+  }
+
+  // What both models' operators tell of the slave: a node's constants, the surface's size and that of a facet.
+  const SolidGeometry::Node &constants(int a) const { return geometry.nodes[a]; }
+  double slave_size() const { return geometry.slave_area; } ///< [mm^2]
+  double facet_size() const
+  {
+    return std::sqrt(geometry.slave_area / static_cast<double>(geometry.slave.facets.size()));
+  }
+
 private:
   struct Placed {
     std::vector<Vector3<double>> x, y;
@@ -99,6 +120,14 @@ private:
   int first_node = 0, last_node = 0;
   std::vector<QuadNormal> normal;
   std::vector<std::vector<PairPart>> facets; ///< of each slave facet, those that were asked for
+
+  /// The angle moved is the smaller one, which has no jump at the half turn.
+  static SurfacePlace place_about_axis(const Vector3<double> &X, const Vector3<double> &x)
+  {
+    const double Theta = std::atan2(X[1], X[0]);
+    const double moved = std::atan2(X[0] * x[1] - X[1] * x[0], X[0] * x[0] + X[1] * x[1]);
+    return {{std::hypot(X[0], X[1]), Theta, X[2]}, {std::hypot(x[0], x[1]), Theta + moved, x[2]}};
+  }
 
   static Matrix3<double> turned(double angle)
   {
@@ -447,10 +476,11 @@ template <FrictionLaw<double> Law> NodeResult SolidContact::result(int a, const 
   const double area = current_area(a);
   const Vector3<double> cauchy = constants.D / area * lambda;
   const auto condition = contact_condition<double>(point_of(a, contact), scale_of(a), law);
-  return {true,   condition.status, constants.D,
-          area,   contact.gap,      -cauchy.dot(n),
-          lambda, cauchy,           contact.velocity - contact.velocity.dot(n) * n,
-          n};
+  const Matrix3<double> own = turned(-std::atan2(placed.x[a][1], placed.x[a][0])); // to (r, theta, z)
+  return {true,         condition.status, constants.D,
+          area,         contact.gap,      -cauchy.dot(n),
+          own * lambda, own * cauchy,     own * (contact.velocity - contact.velocity.dot(n) * n),
+          own * n};
 }
 
 } // namespace tribogel

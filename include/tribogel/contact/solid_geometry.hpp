@@ -24,6 +24,8 @@ struct SolidGeometry {
     double D = 0;         ///< constant diagonal of the mortar matrix, int psi_a dS [mm^2]
     double extent = 0;    ///< int |N_a| dS: row scale of a node without multiplier [mm^2]
     double c_N = 0;       ///< softer modulus over the mean size of the node's facets [MPa/mm]
+
+    double weight() const { return D; }
   };
   using Measures = std::variant<std::vector<QuadMeasure<1>>, std::vector<QuadMeasure<2>>>;
 
