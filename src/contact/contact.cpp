@@ -44,7 +44,10 @@ PetscErrorCode Contact::SetUp(MPI_Comm on, const Mesh &mesh, const Scene &scene)
     const Surface &wall = mesh.wall[body];
     if (wall.facet.empty()) continue;
     std::vector<bool> taken(wall.node.size(), false);
-    if (body == top_body) {
+    if (mesh.dim == 3) { // the crease belongs to the lower face; no wall rolls on
+      for (std::size_t a = 0; a < wall.node.size(); ++a)
+        taken[a] = wall.node[a].local >= 0 && mesh.nodes[wall.node[a].local].on(Side::slave);
+    } else if (body == top_body) {
       taken[wall.facet.front()[0]] = true; // the crease
       const Surface lower = lower_half(wall, taken);
       if (!lower.facet.empty()) {

@@ -12,7 +12,7 @@ namespace tribogel
 class PlateContact
 {
 public:
-  /// The nodes of `wall` with a multiplier, save those in `taken` (indices into the chain).
+  /// The nodes of `wall` with a multiplier, save those in `taken` (indices into the surface).
   void SetUp(const Mesh &mesh, const Scene &scene, int body, const Surface &wall, const std::vector<bool> &taken);
 
   void AddResidual(const PlateFrames &frames, const double *U, double *F, double *magnitude) const;
@@ -34,6 +34,7 @@ private:
   PlateNodeBlock Block(const WallNode &wall_node, const PlateFrames &frames, const double *U) const;
 
   const Mesh *mesh = nullptr;
+  int axial = 1;           ///< component of Node::X along the plates' axis
   bool spans_both = false; ///< one gel between the plates: the upper one moves against the frame of its unknowns
   std::vector<WallNode> nodes;
   double extent = 0; ///< of the scene, for round-off [mm]

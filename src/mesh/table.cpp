@@ -1,6 +1,8 @@
 /// Where the nodes are, who owns them, and which of them a cell has.
 #include "mesh/mesh.hpp"
 
+#include <petscsf.h>
+
 #include <sstream>
 
 namespace tribogel

@@ -11,12 +11,11 @@ namespace tribogel
 namespace
 {
 
-/// Sum of the reactions at the top plate [N], as forces of the plate on the gel: axial, and times L a torque.
+/// Reactions of the top plate.
 PetscErrorCode PlateReaction(Problem &problem, const double *U, Measurement &measurement)
 {
   Vec forces;
   PetscScalar *f;
-  double sums[2] = {0, 0};
   PetscFunctionBeginUser;
   PetscCall(DMGetLocalVector(problem.mesh.dm, &forces));
   PetscCall(VecZeroEntries(forces));
@@ -24,17 +23,13 @@ PetscErrorCode PlateReaction(Problem &problem, const double *U, Measurement &mea
   const StepWeights frozen{0}; // the internal variables are those at the end of the step
   const BulkFailure failure = problem.bulk->AddTopPlateForces(U, problem.state.history, frozen, f);
   PetscCheck(!failure, PETSC_COMM_SELF, PETSC_ERR_PLIB, "a converged state cannot be evaluated");
-  for (const Node &node : problem.mesh.nodes) {
-    if (!node.on(Side::top_plate)) continue;
-    sums[0] -= f[node.displacement + 2];
-    sums[1] += f[node.displacement + 1] * problem.scene.twist_length();
-  }
+  PlateLoads loads = problem.plate_forces(U, f);
   PetscCall(VecRestoreArray(forces, &f));
   PetscCall(DMRestoreLocalVector(problem.mesh.dm, &forces));
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(problem.mesh.dm)));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm));
-  measurement.normal_force = sums[0];
-  measurement.torque = sums[1];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, loads.data(), 2, MPI_DOUBLE, MPI_SUM, comm));
+  measurement.normal_force = loads[0];
+  measurement.torque = loads[1];
   PetscFunctionReturn(0);
 }
 

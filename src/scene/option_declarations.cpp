@@ -9,25 +9,27 @@ namespace
 
 OptionGroup scene_group()
 {
-  return {"Scene",
-          {{.name = "-model",
-            .kind = OptionKind::choice,
-            .fallback = "axisymmetric",
-            .meaning = "coaxial specimens of revolution with any rotation, in the (R, Z) half plane",
-            .source = "own",
-            .choices = {"axisymmetric"}},
-           {.name = "-task",
-            .kind = OptionKind::choice,
-            .fallback = "simulate",
-            .meaning = "simulate: from the scene to force, torque and profiles",
-            .source = "own",
-            .choices = {"simulate"}},
-           {.name = "-specimens",
-            .kind = OptionKind::choice,
-            .fallback = "both",
-            .meaning = "both: two gels in contact; bottom: one gel bonded to both plates, no contact",
-            .source = "paper",
-            .choices = {"both", "bottom"}}}};
+  return {
+      "Scene",
+      {{.name = "-model",
+        .kind = OptionKind::choice,
+        .fallback = "axisymmetric",
+        .meaning = "axisymmetric: coaxial specimens of revolution with any rotation, in the (R, Z) half plane; solid: "
+                   "in space",
+        .source = "own",
+        .choices = {"axisymmetric", "solid"}},
+       {.name = "-task",
+        .kind = OptionKind::choice,
+        .fallback = "simulate",
+        .meaning = "simulate: from the scene to force, torque and profiles",
+        .source = "own",
+        .choices = {"simulate"}},
+       {.name = "-specimens",
+        .kind = OptionKind::choice,
+        .fallback = "both",
+        .meaning = "both: two gels in contact; bottom: one gel bonded to both plates, no contact",
+        .source = "paper",
+        .choices = {"both", "bottom"}}}};
 }
 
 OptionGroup geometry_group()

@@ -85,7 +85,8 @@ std::string scene_report(const SceneInput &input)
   if (scene.has_top)
     text += "  friction: " + describe(scene.friction) + "; initial gap " + number(scene.initial_gap) + " mm\n";
   text += describe(scene.schedule, scene.has_top ? scene.top.radius : scene.bottom.radius);
-  text += "  axisymmetric model, elements of order " + std::to_string(scene.mesh.element_order) + ", " +
+  text += std::string(scene.model == Model::solid ? "  solid" : "  axisymmetric") + " model, elements of order " +
+          std::to_string(scene.mesh.element_order) + ", " +
           std::to_string(scene.mesh.elements_radial << scene.mesh.refinements) + " along the radius, grading " +
           number(scene.mesh.grading) + "\n";
   text += "  output in " + scene.output.directory + "\n";

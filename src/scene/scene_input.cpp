@@ -249,7 +249,8 @@ double estimated_elements(const Scene &scene)
   const double radius = scene.has_top ? scene.top.radius : scene.bottom.radius;
   const auto count = [&](const Specimen &s, int elements) {
     const double edge = radius / (elements << scene.mesh.refinements);
-    return std::ceil(s.radius / edge) * std::ceil(s.height / edge);
+    const double along = std::ceil(s.radius / edge), layers = std::ceil(s.height / edge);
+    return scene.model == Model::solid ? 3 * along * along * layers : along * layers; // 3: revolved_mesh
   };
   const int top = scene.mesh.elements_radial, bottom = scene.mesh.bottom_elements_radial;
   return count(scene.bottom, bottom > 0 ? bottom : top) + (scene.has_top ? count(scene.top, top) : 0);
@@ -261,9 +262,9 @@ SceneInput scene_from_options(const GivenOptions &given)
   SceneInput input;
   input.given = given;
   Scene &scene = input.scene;
-  reader.choice("-model");
   reader.choice("-task");
   scene.has_top = reader.choice("-specimens") == "both";
+  if (reader.choice("-model") == "solid") scene.model = Model::solid;
   read_geometry(reader, scene);
   SceneInput unused; // a top specimen that is not there raises no warnings
   scene.top.material = read_material(reader, "top", scene.has_top ? input : unused);

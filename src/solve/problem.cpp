@@ -168,6 +168,21 @@ void Problem::SetBoundary(double time, double *U, double *Udot) const
   }
 }
 
+PlateLoads Problem::plate_forces(const double *U, const double *F) const
+{
+  PlateLoads loads{};
+  for (int n : plate_nodes) {
+    const Node &node = mesh.nodes[n];
+    const double *f = F + node.displacement, *u = U + node.displacement;
+    loads[0] -= f[2];
+    if (mesh.dim == 2)
+      loads[1] += f[1] * scene.twist_length();
+    else
+      loads[1] += (node.X[0] + u[0]) * f[1] - (node.X[1] + u[1]) * f[0];
+  }
+  return loads;
+}
+
 PetscErrorCode Problem::LocalState(Vec U, Vec Udot) const
 {
   PetscScalar *u, *rate;
@@ -191,11 +206,7 @@ PetscErrorCode Problem::AddResidual(double time, const double *U, const double *
   PetscCall(PetscLogEventBegin(events.bulk_residual, 0, 0, 0, 0));
   bulk_failure = bulk->AddResidual(U, start(), weights(time), F, sizes);
   PetscCall(PetscLogEventEnd(events.bulk_residual, 0, 0, 0, 0));
-  plate_loads = {};
-  for (int n : plate_nodes) {
-    plate_loads[0] -= F[mesh.nodes[n].displacement + 2];
-    plate_loads[1] += F[mesh.nodes[n].displacement + 1] * scene.twist_length();
-  }
+  plate_loads = plate_forces(U, F);
   if (contact) plate_loads[0] += contact->WallForce(U);
   PetscCall(ShareFailure(PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm))), bulk_failure));
   contact_failure.clear();

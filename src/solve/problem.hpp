@@ -4,7 +4,7 @@
 
 #include "bulk/bulk.hpp"
 #include "contact/contact.hpp"
-#include "mesh/meridian.hpp"
+#include "mesh/cylinder.hpp"
 #include "mesh/mesh.hpp"
 #include "solve/failure.hpp"
 #include "solve/log_events.hpp"
@@ -68,9 +68,9 @@ public:
   /// The same with bodies of another outline than the scene's cylinders, whose radii and heights then only scale (the
   /// twist's length, coefficients of friction).
   PetscErrorCode SetUp(MPI_Comm comm, const Scene &scene, const SerialMesh &serial);
-  PetscErrorCode SetUp(MPI_Comm comm, const Scene &scene, const std::vector<MeridianBlock> &blocks)
+  PetscErrorCode SetUp(MPI_Comm comm, const Scene &given, const std::vector<MeridianBlock> &blocks)
   {
-    return SetUp(comm, scene, serial_mesh(blocks));
+    return SetUp(comm, given, given.model == Model::solid ? revolved_mesh(blocks) : serial_mesh(blocks));
   }
 
   PetscErrorCode SetFromOptions(); ///< TS, SNES, KSP, PC
@@ -92,6 +92,10 @@ public:
 
   /// Prescribed displacements and rates at `time` (Udot may be null) in local arrays.
   void SetBoundary(double time, double *U, double *Udot) const;
+
+  /// Axial force and torque that this rank's part of the nodal forces `F` of the gel means for the top plate, about its
+  /// axis and signed as its reactions [N, N mm].
+  PlateLoads plate_forces(const double *U, const double *F) const;
 
   const Phase &phase() const { return scene.schedule[state.phase]; }
   PlateFrames frames(double time, double step) const; ///< at `time`, for a step of that length

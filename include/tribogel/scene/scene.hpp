@@ -71,7 +71,11 @@ struct OutputParameters {
   double wall_time = std::numeric_limits<double>::infinity(); ///< that the program may take [s]
 };
 
+/// Bodies in the (R, Z) half plane, or in space.
+enum class Model { axisymmetric, solid };
+
 struct Scene {
+  Model model = Model::axisymmetric;
   bool has_top = true; ///< false: `-specimens bottom`, one gel bonded to both plates
   Specimen top, bottom;
   PlateBond plate_bond = PlateBond::glued;

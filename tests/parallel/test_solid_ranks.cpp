@@ -1,0 +1,72 @@
+/// Solids on any number of ranks: force and torque of a single gel are those of one rank, to the round-off of another
+/// order of summation; the surfaces of two gels are the same list on every rank.
+#include "solids.hpp"
+
+namespace tribogel::test
+{
+
+namespace
+{
+
+void run_on(MPI_Comm comm, const Scene &scene, Problem &problem, Recorder &recorder)
+{
+  bool completed = false;
+  std::string why;
+  ASSERT_EQ(problem.SetUp(comm, scene), 0);
+  ASSERT_EQ(problem.Run({&recorder}, completed, why), 0);
+  ASSERT_TRUE(completed) << why;
+}
+
+int sum_over_ranks(int mine)
+{
+  MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_INT, MPI_SUM, PETSC_COMM_WORLD);
+  return mine;
+}
+
+} // namespace
+
+TEST(solid_ranks, GiveTheNumbersOfOne)
+{
+  for (int order : {1, 2}) {
+    const SolverOptions options(fixed_steps(0.5, 1e-12));
+    Scene scene = solid_cylinder(4.5, 3, viscoelastic_gel(), order, 3);
+    scene.plate_contact = true;
+    scene.schedule = schedule_from_twists({1, 2}, {0.3, 0.3}, {0, 0.5});
+    Problem shared, single;
+    Recorder many(""), one("");
+    run_on(PETSC_COMM_WORLD, scene, shared, many);
+    run_on(PETSC_COMM_SELF, scene, single, one);
+    ASSERT_EQ(many.rows.size(), one.rows.size());
+    const Measurement &a = many.rows.back().measurement, &b = one.rows.back().measurement;
+    EXPECT_GT(b.normal_force, 10);
+    EXPECT_GT(b.torque, 10);
+    EXPECT_NEAR(a.normal_force / b.normal_force, 1, 1e-10);
+    EXPECT_NEAR(a.torque / b.torque, 1, 1e-10);
+    EXPECT_EQ(sum_over_ranks(static_cast<int>(shared.mesh.cells.size())), static_cast<int>(single.mesh.cells.size()));
+  }
+}
+
+TEST(solid_ranks, KnowTheSurfacesEverywhere)
+{
+  for (int order : {1, 2}) {
+    Scene scene = paper_scene(4, order);
+    scene.model = Model::solid;
+    const SerialMesh serial = revolved_mesh(meridian_blocks(scene));
+    Mesh shared, single;
+    ASSERT_EQ(shared.Build(PETSC_COMM_WORLD, scene, serial), 0);
+    ASSERT_EQ(single.Build(PETSC_COMM_SELF, scene, serial), 0);
+    for (const auto &[many, one] : {std::pair{&shared.slave, &single.slave}, std::pair{&shared.master, &single.master},
+                                    std::pair{&shared.wall[0], &single.wall[0]}}) {
+      EXPECT_EQ(many->facet, one->facet);
+      ASSERT_EQ(many->node.size(), one->node.size());
+      for (std::size_t n = 0; n < one->node.size(); ++n) {
+        EXPECT_EQ(many->node[n].X, one->node[n].X);
+        EXPECT_EQ(many->node[n].multiplier, one->node[n].multiplier);
+        EXPECT_EQ(sum_over_ranks(many->node[n].local >= 0), 1);
+      }
+    }
+    EXPECT_EQ(shared.unknowns, single.unknowns);
+  }
+}
+
+} // namespace tribogel::test

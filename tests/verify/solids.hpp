@@ -1,0 +1,79 @@
+/// Solid meshes for tests: boxes, and meshes whose inner nodes are moved.
+#pragma once
+
+#include "bulk_scenes.hpp"
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <random>
+
+namespace tribogel::test
+{
+
+/// A box, of the bottom body, with these levels along x, y and z. Its sides are named in the order x low, x high,
+/// y low, y high, z low, z high.
+struct Box {
+  std::array<std::vector<double>, 3> levels;
+  std::array<std::optional<Side>, 6> sides{};
+
+  SerialMesh mesh() const
+  {
+    SerialMesh serial;
+    serial.dim = 3;
+    const std::array<int, 3> n{cells(0), cells(1), cells(2)};
+    const auto vertex = [&](int i, int j, int k) { return i + (n[0] + 1) * (j + (n[1] + 1) * k); };
+    for (const double z : levels[2])
+      for (const double y : levels[1])
+        for (const double x : levels[0]) serial.vertex.push_back({x, y, z});
+    for (int k = 0; k < n[2]; ++k)
+      for (int j = 0; j < n[1]; ++j)
+        for (int i = 0; i < n[0]; ++i) {
+          SerialMesh::Cell cell{{}, bottom_body, levels[0][i]};
+          for (int v = 0; v < 8; ++v) cell.vertex[v] = vertex(i + v % 2, j + v / 2 % 2, k + v / 4);
+          serial.cell.push_back(cell);
+          for (int side = 0; side < 6; ++side) {
+            const int axis = side / 2, at = std::array{i, j, k}[axis];
+            if (!sides[side] || at != (side % 2 ? n[axis] - 1 : 0)) continue;
+            SerialMesh::Facet facet{{}, *sides[side]};
+            int next = 0;
+            for (int v = 0; v < 8; ++v)
+              if ((v >> axis & 1) == side % 2) facet.vertex[next++] = cell.vertex[v];
+            serial.boundary.push_back(facet);
+          }
+        }
+    return serial;
+  }
+
+private:
+  int cells(int axis) const { return static_cast<int>(levels[axis].size()) - 1; }
+};
+
+inline std::vector<double> even(double a, double b, int cells)
+{
+  std::vector<double> levels;
+  for (int k = 0; k <= cells; ++k) levels.push_back(a + (b - a) * k / cells);
+  return levels;
+}
+
+/// A single gel as a solid.
+inline Scene solid_cylinder(double radius, double height, const Viscoelastic<double> &material, int order, int elements)
+{
+  Scene scene = cylinder(radius, height, material, order, elements);
+  scene.model = Model::solid;
+  return scene;
+}
+
+/// Moves every node for which `inner` holds by up to `distance` in each direction, midside nodes too: edges and faces
+/// are curved.
+template <class Inner> void jostle(Mesh &mesh, double distance, const Inner &inner)
+{
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> in(-distance, distance);
+  for (Node &node : mesh.nodes) {
+    if (!inner(node.X)) continue;
+    for (double &x : node.X) x += in(random);
+  }
+}
+
+} // namespace tribogel::test
