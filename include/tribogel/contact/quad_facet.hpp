@@ -72,6 +72,13 @@ template <int order> struct QuadMeasure {
   DualBasis<nodes> basis;
   double area;                      ///< int dS [mm^2]
   std::array<double, nodes> extent; ///< int |N_a| dS [mm^2]
+  /// The sides of the quadrilateral through the undeformed facet's corners in the coordinates l of QuadFrame: inside is
+  /// normal . l < distance.
+  struct Side {
+    Vector2<double> normal;
+    double distance;
+  };
+  std::array<Side, 4> outline;
 
   struct Weight {
     double value;
@@ -87,6 +94,36 @@ template <int order> struct QuadMeasure {
       for (int j = 0; j < 2; ++j) w.slope[j] += shape.dN[q][j] / outermost * sample[q];
     }
     return w;
+  }
+};
+
+/// Coordinates l of points near a facet in the plane that touches it at its centre: those of the square if the facet is
+/// a parallelogram, and linear in the position, x - c = A l + e with A the tangents at the centre c and e normal to
+/// them. Unlike xi they are defined everywhere.
+template <int order> struct QuadFrame {
+  QuadShape<order> at_centre = quad_shape<order>({0, 0});
+  Vector3<double> centre;
+  Eigen::Matrix<double, 3, 2> A;
+  Eigen::Matrix<double, 2, 2> S; ///< (A^T A)^-1
+  Eigen::Matrix<double, 2, 3> L; ///< l = L (x - c)
+
+  explicit QuadFrame(const QuadPoints<order> &x) : centre(interpolate(at_centre.N, x))
+  {
+    A << tangent(at_centre.dN, x, 0), tangent(at_centre.dN, x, 1);
+    S = (A.transpose() * A).inverse();
+    L = S * A.transpose();
+  }
+  Vector2<double> operator()(const Vector3<double> &point) const { return L * (point - centre); }
+
+  /// dl / dx_a of a fixed point. A^T A dl = dA^T e - A^T (dc + dA l).
+  Eigen::Matrix<double, 2, 3> slope(const Vector3<double> &point, int a) const
+  {
+    const Vector2<double> l = (*this)(point);
+    const Vector3<double> e = point - centre - A * l;
+    const double moved = at_centre.N[a] + at_centre.dN[a][0] * l[0] + at_centre.dN[a][1] * l[1];
+    Eigen::Matrix<double, 2, 3> turn;
+    turn << at_centre.dN[a][0] * e.transpose(), at_centre.dN[a][1] * e.transpose();
+    return S * turn - moved * L;
   }
 };
 
@@ -114,6 +151,13 @@ template <int order> QuadMeasure<order> quad_measure(const QuadPoints<order> &X)
     }
   }
   facet.basis = dual_basis<nodes>(D, M);
+  const QuadFrame<order> frame(X);
+  constexpr int around[5] = {0, order, nodes - 1, nodes - 1 - order, 0};
+  for (int side = 0; side < 4; ++side) {
+    const Vector2<double> p = frame(X[around[side]]), along = frame(X[around[side + 1]]) - p,
+                          normal(along[1], -along[0]);
+    facet.outline[side] = {normal, normal.dot(p)};
+  }
   return facet;
 }
 

@@ -29,6 +29,10 @@ namespace tribogel
 /// order 2.
 template <int order> inline constexpr int outline_chords = order;
 
+/// The master's outline is first cut to the slave facet's, so many times as wide, in the coordinates of QuadFrame:
+/// points far from a distorted facet have no projection.
+inline constexpr double outline_margin = 1.25;
+
 /// How far a master facet is extended beyond a side that is the surface's edge, in eta (the facet has length 2).
 inline constexpr double edge_extension = 1;
 
@@ -78,6 +82,8 @@ template <int order> inline constexpr int rule_points = 2 * order + 1;
 /// The parts of a projection's linearisation: solves x(xi) + g n(xi) - y(eta) = 0.
 constexpr double projection_tolerance = 1e-9; // of the last step; what is left is its square
 constexpr int most_iterations = 30;
+/// A cut ends on its line, to so much of the square.
+constexpr double cut_round_off = 1e-14;
 
 template <int order> class Kernel
 {
@@ -107,18 +113,22 @@ public:
   }
 
 private:
-  using Slope = Eigen::Matrix<double, 2, inputs, Eigen::RowMajor>;
-  using ByVertex = Eigen::Matrix<double, nodes * nodes, 2, Eigen::RowMajor>;
-  struct Vertex {
-    Vector2<double> xi = Vector2<double>::Zero();
-    bool moves = false; ///< has derivatives
-    Slope d;            ///< d xi / d inputs, set if it moves
+  /// A corner of a polygon: in space at first, then in the slave's parameter plane.
+  template <int dim> struct Corner {
+    Eigen::Matrix<double, dim, 1> at = Eigen::Matrix<double, dim, 1>::Zero();
+    bool moves = false;                                    ///< has derivatives
+    Eigen::Matrix<double, dim, inputs, Eigen::RowMajor> d; ///< by the inputs, set if it moves
   };
+  using Place = Corner<3>;
+  using Vertex = Corner<2>;
+  using ByVertex = Eigen::Matrix<double, nodes * nodes, 2, Eigen::RowMajor>;
+  using Row = Eigen::Matrix<double, 1, inputs>;
 
   const QuadMeasure<order> &measure;
   const QuadPair<order> &pair;
   bool with_derivatives;
-  std::vector<Vertex> polygon, clipped;
+  std::vector<Place> places;
+  std::vector<Vertex> polygon;
   std::vector<ByVertex> by_vertex; ///< dM / d xi of each vertex
   std::array<double, 2> last_eta{};
   Result out;
@@ -126,27 +136,63 @@ private:
   /// Whether the master's outline meets the slave facet's square, seen from the front.
   bool project_outline()
   {
+    outline();
+    cut_to_neighbourhood();
+    polygon.clear();
+    Vector2<double> low(2, 2), high(-2, -2);
+    for (const Place &place : places) {
+      Vertex vertex;
+      if (!project_on_slave(place, vertex)) {
+        out.status = MortarStatus::no_projection;
+        return false;
+      }
+      low = low.cwiseMin(vertex.at);
+      high = high.cwiseMax(vertex.at);
+      polygon.push_back(std::move(vertex));
+    }
+    const bool apart = low[0] >= 1 || low[1] >= 1 || high[0] <= -1 || high[1] <= -1;
+    return !apart && area_of(polygon) < 0; // out of the master is into the slave: its outline runs clockwise
+  }
+
+  /// Points at fixed eta.
+  void outline()
+  {
     constexpr int chords = outline_chords<order>;
     std::array<double, 4> end{-1, 1, -1, 1};
     for (int side = 0; side < 4; ++side)
       if (pair.on_edge[side]) end[side] += side % 2 == 0 ? -edge_extension : edge_extension;
     const double corner[5][2] = {
         {end[0], end[2]}, {end[1], end[2]}, {end[1], end[3]}, {end[0], end[3]}, {end[0], end[2]}};
-    polygon.clear();
-    Vector2<double> low(2, 2), high(-2, -2);
+    places.clear();
     for (int side = 0; side < 4; ++side)
       for (int k = 0; k < chords; ++k) {
         const double t = static_cast<double>(k) / chords;
-        const std::array<double, 2> eta{(1 - t) * corner[side][0] + t * corner[side + 1][0],
-                                        (1 - t) * corner[side][1] + t * corner[side + 1][1]};
-        Vertex vertex;
-        if (!project_on_slave(eta, vertex)) return false;
-        low = low.cwiseMin(vertex.xi);
-        high = high.cwiseMax(vertex.xi);
-        polygon.push_back(std::move(vertex));
+        const auto shape = quad_shape<order>(
+            {(1 - t) * corner[side][0] + t * corner[side + 1][0], (1 - t) * corner[side][1] + t * corner[side + 1][1]});
+        Place place;
+        place.at = interpolate(shape.N, pair.y);
+        place.moves = with_derivatives;
+        if (with_derivatives) {
+          place.d.setZero();
+          for (int m = 0; m < nodes; ++m)
+            place.d.template middleCols<3>(3 * (2 * nodes + m)).diagonal().setConstant(shape.N[m]);
+        }
+        places.push_back(std::move(place));
       }
-    const bool apart = low[0] >= 1 || low[1] >= 1 || high[0] <= -1 || high[1] <= -1;
-    return !apart && area_of(polygon) < 0; // out of the master is into the slave: its outline runs clockwise
+  }
+
+  void cut_to_neighbourhood()
+  {
+    const QuadFrame<order> frame(pair.x);
+    for (const auto &side : measure.outline)
+      cut(
+          places, [&](const Place &p) { return outline_margin * side.distance - side.normal.dot(frame(p.at)); },
+          [&](const Place &p) {
+            Row d = -side.normal.transpose() * frame.L * p.d;
+            for (int a = 0; a < nodes; ++a)
+              d.template segment<3>(3 * a) -= side.normal.transpose() * frame.slope(p.at, a);
+            return d;
+          });
   }
 
   static double cross(const Vector2<double> &a, const Vector2<double> &b) { return a[0] * b[1] - a[1] * b[0]; }
@@ -155,15 +201,13 @@ private:
   {
     double sum = 0;
     for (std::size_t k = 1; k + 1 < vertices.size(); ++k)
-      sum += cross(vertices[k].xi - vertices[0].xi, vertices[k + 1].xi - vertices[0].xi);
+      sum += cross(vertices[k].at - vertices[0].at, vertices[k + 1].at - vertices[0].at);
     return 0.5 * sum;
   }
 
-  /// Newton's method for (xi, g). A point far from the facet may have no projection: it is then no neighbour of it.
-  bool project_on_slave(const std::array<double, 2> &eta, Vertex &vertex) const
+  /// Newton's method for (xi, g).
+  bool project_on_slave(const Place &place, Vertex &vertex) const
   {
-    const auto master = quad_shape<order>(eta);
-    const Vector3<double> y = interpolate(master.N, pair.y);
     double g = 0;
     std::array<double, 2> xi{0, 0};
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
@@ -173,56 +217,63 @@ private:
       for (int j = 0; j < 2; ++j) A.col(j) = tangent(shape.dN, pair.x, j) + g * tangent(shape.dN, pair.n, j);
       A.col(2) = normal;
       const Matrix3<double> inverse = A.inverse();
-      const Vector3<double> step = inverse * (y - interpolate(shape.N, pair.x) - g * normal);
+      const Vector3<double> step = inverse * (place.at - interpolate(shape.N, pair.x) - g * normal);
       if (!step.allFinite()) return false;
       xi[0] += step[0];
       xi[1] += step[1];
       g += step[2];
       if (std::abs(step[0]) > projection_tolerance || std::abs(step[1]) > projection_tolerance) continue;
-      vertex.xi = {xi[0], xi[1]};
+      vertex.at = {xi[0], xi[1]};
       vertex.moves = with_derivatives;
       if (!with_derivatives) return true;
       const Eigen::Matrix<double, 2, 3> B = inverse.topRows<2>();
+      vertex.d.noalias() = B * place.d;
       for (int a = 0; a < nodes; ++a) {
-        vertex.d.template middleCols<3>(3 * a) = -shape.N[a] * B;
-        vertex.d.template middleCols<3>(3 * (nodes + a)) = -g * shape.N[a] * B;
-        vertex.d.template middleCols<3>(3 * (2 * nodes + a)) = master.N[a] * B;
+        vertex.d.template middleCols<3>(3 * a) -= shape.N[a] * B;
+        vertex.d.template middleCols<3>(3 * (nodes + a)) -= g * shape.N[a] * B;
       }
       return true;
     }
     return false;
   }
 
-  /// Sutherland and Hodgman's algorithm against the sides of the square.
+  /// To the square.
   void clip()
   {
     for (int axis = 0; axis < 2; ++axis)
       for (const double side : {-1.0, 1.0}) {
-        clipped.clear();
-        for (std::size_t k = 0; k < polygon.size(); ++k) {
-          const Vertex &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
-          const double inside_p = 1 - side * p.xi[axis], inside_q = 1 - side * q.xi[axis];
-          if (inside_p >= 0) clipped.push_back(p);
-          if ((inside_p >= 0) != (inside_q >= 0)) clipped.push_back(between(p, q, inside_p, inside_q, axis, side));
-        }
-        std::swap(polygon, clipped);
+        cut(
+            polygon, [&](const Vertex &p) { return 1 - side * p.at[axis]; },
+            [&](const Vertex &p) { return Row(-side * p.d.row(axis)); });
+        for (Vertex &p : polygon)
+          if (1 - side * p.at[axis] < cut_round_off) { // on the side, exactly
+            p.at[axis] = side;
+            if (p.moves) p.d.row(axis).setZero();
+          }
       }
   }
 
-  Vertex between(const Vertex &p, const Vertex &q, double inside_p, double inside_q, int axis, double side) const
+  /// One step of Sutherland and Hodgman's algorithm: what of a polygon lies where `inside` is not negative.
+  template <class Point, class Inside, class Slope>
+  void cut(std::vector<Point> &points, const Inside &inside, const Slope &slope) const
   {
-    Vertex v;
-    const double t = inside_p / (inside_p - inside_q);
-    v.xi = p.xi + t * (q.xi - p.xi);
-    v.xi[axis] = side;
-    v.moves = p.moves || q.moves;
-    if (!v.moves) return v;
-    const Slope none = Slope::Zero(), &dp = p.moves ? p.d : none, &dq = q.moves ? q.d : none;
-    const double scale = side / ((inside_p - inside_q) * (inside_p - inside_q));
-    const Eigen::Matrix<double, 1, inputs> dt = scale * (inside_q * dp.row(axis) - inside_p * dq.row(axis));
-    v.d = (1 - t) * dp + t * dq + (q.xi - p.xi) * dt;
-    v.d.row(axis).setZero();
-    return v;
+    std::vector<Point> left;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const Point &p = points[k], &q = points[(k + 1) % points.size()];
+      const double in_p = inside(p), in_q = inside(q);
+      if (in_p >= 0) left.push_back(p);
+      if ((in_p >= 0) == (in_q >= 0)) continue;
+      const double t = in_p / (in_p - in_q);
+      Point v;
+      v.at = p.at + t * (q.at - p.at);
+      v.moves = with_derivatives;
+      if (with_derivatives) {
+        const Row dt = (in_p * slope(q) - in_q * slope(p)) / ((in_p - in_q) * (in_p - in_q));
+        v.d = (1 - t) * p.d + t * q.d + (q.at - p.at) * dt;
+      }
+      left.push_back(std::move(v));
+    }
+    points = std::move(left);
   }
 
   /// The master's point that the slave's normal line at xi meets.
@@ -260,7 +311,7 @@ private:
   void add_triangle(const std::array<std::size_t, 3> &corner)
   {
     static const auto rule = triangle_rule<rule_points<order>>();
-    const Vector2<double> &p = polygon[corner[0]].xi, e1 = polygon[corner[1]].xi - p, e2 = polygon[corner[2]].xi - p;
+    const Vector2<double> &p = polygon[corner[0]].at, e1 = polygon[corner[1]].at - p, e2 = polygon[corner[2]].at - p;
     const double area = -0.5 * cross(e1, e2); // positive: the outline runs clockwise
     if (area == 0 && !with_derivatives) return;
     out.covered += area;
@@ -269,7 +320,7 @@ private:
     out.M += area * mean;
     if (!with_derivatives) return;
     // d area / d vertex: half the opposite edge, turned
-    const Vector2<double> edge[3] = {polygon[corner[2]].xi - polygon[corner[1]].xi, -e2, e1};
+    const Vector2<double> edge[3] = {polygon[corner[2]].at - polygon[corner[1]].at, -e2, e1};
     for (int k = 0; k < 3; ++k) {
       const Vector2<double> slope(0.5 * edge[k][1], -0.5 * edge[k][0]);
       const Eigen::Map<const Eigen::Matrix<double, nodes * nodes, 1>> all(mean.data());
@@ -281,7 +332,7 @@ private:
                  double area, typename Result::Matrix &mean)
   {
     Vector2<double> at = Vector2<double>::Zero();
-    for (int k = 0; k < 3; ++k) at += share[k] * polygon[corner[k]].xi;
+    for (int k = 0; k < 3; ++k) at += share[k] * polygon[corner[k]].at;
     const std::array<double, 2> xi{at[0], at[1]};
     const auto shape = quad_shape<order>(xi);
     const Vector3<double> point = interpolate(shape.N, pair.x), normal = interpolate(shape.N, pair.n);
