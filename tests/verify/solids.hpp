@@ -3,6 +3,8 @@
 
 #include "bulk_scenes.hpp"
 
+#include "tribogel/kinematics/solid.hpp"
+
 #include <array>
 #include <cmath>
 #include <optional>

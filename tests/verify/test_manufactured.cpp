@@ -69,12 +69,12 @@ template <int order> void expect_rates(double distortion)
   }
 }
 
-/// In a block, with gradients up to 0.3 in all shears; the volume changes in second order only.
+/// In a block, with gradients up to 0.1 in all shears; the volume changes in second order only.
 Solid::Field<double> solid_field(const std::array<double, 3> &X)
 {
   using D = Dual<3>;
   const D x = D::seed(X[0], 0), y = D::seed(X[1], 1), z = D::seed(X[2], 2);
-  const D u[3] = {0.25 * sin(0.9 * y - 0.7 * z + 0.3), 0.3 * sin(0.8 * z + 0.6 * x), 0.28 * cos(0.7 * x + 0.8 * y)};
+  const D u[3] = {0.11 * sin(0.9 * y - 0.7 * z + 0.3), 0.13 * sin(0.8 * z + 0.6 * x), 0.12 * cos(0.7 * x + 0.8 * y)};
   Solid::Field<double> field;
   for (int i = 0; i < 3; ++i) {
     field.u[i] = u[i].v;

@@ -67,11 +67,9 @@ double largest(const std::vector<double> &values)
 
 void expect_patch(Problem &problem, double distance, double end_area)
 {
-  const auto inner = [](const std::array<double, 3> &X) {
-    return std::hypot(X[0], X[1]) < 0.95 * a && X[2] > -0.99 * height && X[2] < -0.01 * height;
-  };
-  jostle(problem.mesh, distance,
-         [&](const auto &X) { return inner(X) && std::max(std::abs(X[0]), std::abs(X[1])) < 2.9; });
+  jostle(problem.mesh, distance, [](const std::array<double, 3> &X) {
+    return std::max(std::abs(X[0]), std::abs(X[1])) < 2.9 && X[2] > -0.99 * height && X[2] < -0.01 * height;
+  });
   ASSERT_EQ(Bulk::Create(problem.mesh, problem.scene, problem.bulk), 0);
   Matrix3<double> F;
   F << 1.23, 0.21, -0.34, -0.13, 0.87, 0.29, 0.17, -0.41, 0.79;
@@ -143,7 +141,9 @@ TEST(solid_bulk, LinearDisplacementsPassThePatchTestInACylinder)
     ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, at_rest(viscoelastic_gel(), order, 4)), 0);
     const double area = end_area(problem.mesh);
     std::printf("order %d: area of the end %.6f, circle %.6f\n", order, area, pi * a * a);
-    if (order == 1) EXPECT_NEAR(area, polygon(16), 1e-12 * area);
+    if (order == 1) {
+      EXPECT_NEAR(area, polygon(16), 1e-12 * area);
+    }
     EXPECT_NEAR(area / (pi * a * a), 1, order == 1 ? 0.03 : 3e-4);
     expect_patch(problem, order == 1 ? 0.15 : 0.08, area);
   }
@@ -213,26 +213,30 @@ TEST(solid_bulk, TurningAndLiftingTurnsTheForces)
   }
 }
 
+/// Height and radius are equal, and with two elements a side the outline has eight corners: each further mesh halves
+/// all edges.
 TEST(solid_bulk, TorsionConvergesToTheUniversalSolution)
 {
-  constexpr double G = 0.7, psi = 0.13, T = pi / 2 * G * psi * a * a * a * a,
+  constexpr double G = 0.7, psi = 0.083, T = pi / 2 * G * psi * a * a * a * a,
                    N = pi / 4 * G * psi * psi * a * a * a * a;
   for (int order : {1, 2}) {
     double before = 0;
-    for (int elements : {3, 6}) {
-      Scene scene = solid_cylinder(a, height, neo_hookean(G, 1e4), order, elements);
-      scene.schedule = schedule_from_twists({2}, {0}, {psi * height});
-      const SolverOptions options(fixed_steps(1, 1e-9));
+    for (int elements : {2 * (3 - order), 4 * (3 - order)}) {
+      Scene scene = solid_cylinder(a, a, neo_hookean(G, 1e4), order, elements);
+      scene.schedule = schedule_from_twists({2}, {0}, {psi * a});
+      const SolverOptions options(fixed_steps(0.5, 1e-9));
       Problem problem;
       Recorder recorder("");
       run(scene, problem, recorder);
       const Measurement &m = recorder.rows.back().measurement;
       const double error = m.torque / T - 1;
       std::printf("order %d elements %d: errors of T %.3e, N %.3e\n", order, elements, error, m.normal_force / N - 1);
-      if (before != 0) EXPECT_GT(before / std::abs(error), order == 1 ? 3 : 8);
+      if (before != 0) {
+        EXPECT_GT(before / std::abs(error), order == 1 ? 3.5 : 12);
+      }
       before = std::abs(error);
     }
-    EXPECT_LT(before, order == 1 ? 0.05 : 2e-3);
+    EXPECT_LT(before, order == 1 ? 0.03 : 1e-3);
   }
 }
 
@@ -260,31 +264,37 @@ TEST(solid_bulk, AThinDiscDoesNotLock)
   }
 }
 
-/// A bonded gel pressed and then twisted: force and torque approach those of the half plane with the same edges.
+/// A bonded gel pressed and then twisted: force and torque approach those of the half plane with the same edges. The
+/// torque's error is that of the outline; the force's, of the singular line where wall and plate meet, falls slowly.
 TEST(solid_bulk, ApproachesTheAxisymmetricModel)
 {
   for (int order : {1, 2}) {
     double before[2] = {};
-    for (int elements : {3, 6}) {
+    for (int elements : {4 - (order - 1), 2 * (4 - (order - 1))}) {
       Measurement m[2];
       for (int k = 0; k < 2; ++k) {
         Scene scene = solid_cylinder(a, height, viscoelastic_gel(), order, elements);
         scene.model = k ? Model::solid : Model::axisymmetric;
-        scene.schedule = schedule_from_twists({2, 4}, {0.3, 0.3}, {0, 0.4});
-        const SolverOptions options(fixed_steps(1, 1e-9));
+        scene.schedule = schedule_from_twists({1, 2}, {0.04, 0.04}, {0, 0.1});
+        const SolverOptions options(fixed_steps(1, 1e-8));
         Problem problem;
         Recorder recorder("");
         run(scene, problem, recorder);
+        ASSERT_EQ(recorder.rows.size(), 3u); // equal steps in all runs
         m[k] = recorder.rows.back().measurement;
       }
       const double errors[2] = {m[1].normal_force / m[0].normal_force - 1, m[1].torque / m[0].torque - 1};
       std::printf("order %d elements %d: N %.5f, T %.5f; differences %.3e, %.3e\n", order, elements, m[1].normal_force,
                   m[1].torque, errors[0], errors[1]);
       for (int i = 0; i < 2; ++i) {
-        if (before[i] != 0) EXPECT_GT(before[i] / std::abs(errors[i]), order == 1 ? 3 : 8);
+        if (before[i] != 0) {
+          EXPECT_LT(std::abs(errors[i]), before[i] / (order == 1 ? 3 : 2));
+        }
         before[i] = std::abs(errors[i]);
       }
     }
+    EXPECT_LT(before[0], order == 1 ? 0.02 : 2e-3);
+    EXPECT_LT(before[1], order == 1 ? 0.02 : 2e-4);
   }
 }
 

@@ -3,6 +3,7 @@
 /// point out of the bodies: their vector areas add up to those of the plane faces, and to nothing round the wall.
 #include "solids.hpp"
 
+#include <limits>
 #include <numbers>
 
 namespace tribogel::test
@@ -38,7 +39,7 @@ template <int order> Size size_of(const Mesh &mesh)
     std::array<std::array<double, 3>, Cell<Solid, order>::nodes> X;
     for (std::size_t n = 0; n < X.size(); ++n) X[n] = mesh.nodes[cell.node[n]].X;
     EXPECT_TRUE(geometry.set(X));
-    double low = geometry.point[0].weight, high = 0;
+    double low = std::numeric_limits<double>::infinity(), high = 0;
     static const auto gauss = gauss_rule<order + 1>();
     for (std::size_t q = 0; q < geometry.point.size(); ++q) {
       double weight = 1;
@@ -106,7 +107,7 @@ TEST(solid_mesh, CellsAreSoundAndVolumesConverge)
   for (double grading : {1.0, 30.0})
     for (int order : {1, 2}) {
       double before = 0;
-      for (int elements : {4, 8, 16}) {
+      for (int elements : {4, 8}) {
         Mesh mesh;
         const Scene scene = two_gels(order, elements, grading);
         ASSERT_NO_FATAL_FAILURE(build(scene, mesh));
@@ -114,8 +115,10 @@ TEST(solid_mesh, CellsAreSoundAndVolumesConverge)
         const double error = 1 - size.volume[top_body] / (pi * 100 * 4.4);
         std::printf("order %d grading %g elements %2d: %zu cells, %d unknowns, smallest Jacobian %.3f, volume %.2e\n",
                     order, grading, elements, mesh.cells.size(), static_cast<int>(mesh.unknowns), size.smallest, error);
-        EXPECT_GT(size.smallest, 0.1);
-        if (before > 0 && grading == 1) EXPECT_GT(before / std::abs(error), order == 1 ? 3.9 : 14);
+        EXPECT_GT(size.smallest, 0.5);
+        if (before > 0 && grading == 1) {
+          EXPECT_GT(before / std::abs(error), order == 1 ? 3.9 : 14);
+        }
         before = std::abs(error);
       }
     }
