@@ -160,12 +160,12 @@ void read_discretisation(const OptionReader &reader, Scene &scene)
   scene.time.rule = second_order && !steady ? TimeRule::sdirk2 : TimeRule::exponential_euler;
   scene.time.tolerance = reader.real("-time_tolerance");
   const double elements = estimated_elements(scene);
-  if (elements > most_elements) {
+  if (elements > most_elements(scene)) {
     char rounded[32];
     std::snprintf(rounded, sizeof rounded, "%.3g", elements);
     refuse("-elements_radial", std::to_string(scene.mesh.elements_radial),
            std::string("with these radii and heights a mesh of ") + rounded + " elements; allowed: at most " +
-               to_text(most_elements) + " elements (matrix positions are 32-bit numbers)");
+               to_text(most_elements(scene)) + " elements (matrix positions are 32-bit numbers)");
   }
 }
 

@@ -28,10 +28,14 @@ struct SceneInput {
 /// Throws UserError at the first option that is wrong.
 SceneInput scene_from_options(const GivenOptions &given);
 
-/// Quadrilaterals that a uniform mesh of this scene has at -elements_radial [1]. Grading does not reduce it below.
+/// Elements that a uniform mesh of this scene has at -elements_radial [1]. Grading does not reduce it below.
 double estimated_elements(const Scene &scene);
 
-/// More elements than this are refused: matrix positions are 32-bit numbers.
-inline constexpr double most_elements = 2e6;
+/// More elements than this are refused: matrix positions are 32-bit numbers, and a row of hexahedra of order 2 has
+/// about 200 entries.
+inline double most_elements(const Scene &scene)
+{
+  return scene.model == Model::solid && scene.mesh.element_order == 2 ? 4e5 : 2e6;
+}
 
 } // namespace tribogel

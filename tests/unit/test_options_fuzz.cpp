@@ -106,7 +106,7 @@ void expect_sense(const Scene &scene)
   EXPECT_TRUE(scene.mesh.element_order == 1 || scene.mesh.element_order == 2);
   EXPECT_GE(scene.mesh.elements_radial, 1);
   EXPECT_GE(scene.mesh.grading, 1);
-  EXPECT_LE(estimated_elements(scene), most_elements);
+  EXPECT_LE(estimated_elements(scene), most_elements(scene));
   EXPECT_TRUE(scene.time.tolerance > 0 && std::isfinite(scene.time.tolerance));
 }
 
