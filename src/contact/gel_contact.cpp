@@ -1,15 +1,29 @@
 #include "contact/gel_contact.hpp"
 
 #include "contact/surface_reference.hpp"
+#include "tribogel/contact/axisymmetric_contact.hpp"
 #include "tribogel/contact/rolling.hpp"
+#include "tribogel/contact/solid_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <variant>
 
 namespace tribogel
 {
+
+struct ContactModel {
+  std::variant<AxisymmetricContact, SolidContact> contact;
+  ContactParameters parameters; ///< of a curve
+
+  AxisymmetricContact &curve() { return std::get<AxisymmetricContact>(contact); }
+};
+
+GelContact::GelContact() : model(std::make_unique<ContactModel>()) {}
+GelContact::GelContact(GelContact &&) noexcept = default;
+GelContact::~GelContact() = default;
 
 namespace
 {
@@ -88,35 +102,36 @@ PetscErrorCode GelContact::SetUp(MPI_Comm on, const Mesh &both, const Scene &sce
   slave = std::move(surface);
   wall = is_wall;
   friction = scene.friction;
-  parameters.order = mesh->order;
-  parameters.twist_length = scene.twist_length();
-  parameters.softer_modulus =
+  model->parameters.order = mesh->order;
+  model->parameters.twist_length = scene.twist_length();
+  model->parameters.softer_modulus =
       std::min(scene.top.material.equilibrium.shear_modulus(), scene.bottom.material.equilibrium.shear_modulus());
-  parameters.starts_at_crease = wall;
+  model->parameters.starts_at_crease = wall;
   if (wall) slave.node.front().multiplier = false; // it belongs to the lower face
-  for (const SurfaceNode &node : slave.node) parameters.carries_multiplier.push_back(node.multiplier);
+  for (const SurfaceNode &node : slave.node) model->parameters.carries_multiplier.push_back(node.multiplier);
   if (mesh->dim == 2)
     Touch(wall ? 0 : static_cast<int>(slave.facet.size()));
   else
-    contact = SolidContact(SolidGeometry(quads_of(slave), quads_of(mesh->master),
-                                         {parameters.order, parameters.softer_modulus, parameters.carries_multiplier}));
+    model->contact = SolidContact(SolidGeometry(
+        quads_of(slave), quads_of(mesh->master),
+        {model->parameters.order, model->parameters.softer_modulus, model->parameters.carries_multiplier}));
   const auto nodes = static_cast<int>(slave.node.size());
   first = static_cast<int>(static_cast<long>(nodes) * rank / size);
   last = static_cast<int>(static_cast<long>(nodes) * (rank + 1) / size);
-  margin = std::visit([](const auto &model) { return model.facet_size(); }, contact);
+  margin = std::visit([](const auto &operation) { return operation.facet_size(); }, model->contact);
 
   ContactState<double> rest;
   const std::vector<double> zero(9 * (slave.node.size() + mesh->master.node.size()), 0.0);
   Unpack({-scene.initial_gap}, zero, 1, rest);
-  pattern = std::visit([&](const auto &model) { return model.candidate_pairs(rest, margin); }, contact);
+  pattern = std::visit([&](const auto &operation) { return operation.candidate_pairs(rest, margin); }, model->contact);
   PetscFunctionReturn(0);
 }
 
 /// Rebuilds the operator of a curve for contact of the first `facets` slave facets.
 void GelContact::Touch(int facets)
 {
-  parameters.facets_in_contact = facets;
-  contact = AxisymmetricContact(ContactGeometry(chain_of(slave), chain_of(mesh->master), parameters));
+  model->parameters.facets_in_contact = facets;
+  model->contact = AxisymmetricContact(ContactGeometry(chain_of(slave), chain_of(mesh->master), model->parameters));
 }
 
 PetscErrorCode GelContact::BeginStep(const PlateFrames &frames, const double *U)
@@ -125,13 +140,13 @@ PetscErrorCode GelContact::BeginStep(const PlateFrames &frames, const double *U)
   PetscFunctionBeginUser;
   if (!wall) PetscFunctionReturn(0);
   PetscCall(Gather(frames, U, nullptr, 1, state));
-  const ContactGeometry &geometry = curve().reference();
+  const ContactGeometry &geometry = model->curve().reference();
   const LineChain whole(geometry.slave.facets, mesh->order + 1, static_cast<int>(geometry.slave.X.size()));
   int facets = rolling_facets(whole, positions(geometry.slave, state.slave), geometry.master_chain,
                               positions(geometry.master, state.master));
   if (facets != geometry.slave_chain.facet_count()) Touch(facets);
   while (facets > 0) { // only facets that can be projected now
-    const MortarReport report = curve().update(state, curve().candidate_pairs(state, 0), false);
+    const MortarReport report = model->curve().update(state, model->curve().candidate_pairs(state, 0), false);
     if (report.status == MortarStatus::ok) break;
     facets = report.facet;
     Touch(facets);
@@ -143,7 +158,7 @@ PetscErrorCode GelContact::BeginStep(const PlateFrames &frames, const double *U)
 /// A wall facet that the last attempt could not project sits out the next.
 void GelContact::BeginAttempt()
 {
-  if (wall && failed_facet < curve().reference().slave_chain.facet_count()) Touch(failed_facet);
+  if (wall && failed_facet < model->curve().reference().slave_chain.facet_count()) Touch(failed_facet);
 }
 
 /// The nine values of each node (u, rate, multiplier; slave nodes first) as the model wants them.
@@ -197,8 +212,10 @@ PetscErrorCode GelContact::Evaluate(const ContactState<double> &state, bool deri
 {
   PetscFunctionBeginUser;
   const MortarReport report = std::visit(
-      [&](auto &model) { return model.update(state, model.candidate_pairs(state, 0), derivatives, first, last); },
-      contact);
+      [&](auto &operation) {
+        return operation.update(state, operation.candidate_pairs(state, 0), derivatives, first, last);
+      },
+      model->contact);
   struct {
     int status, facet;
   } worst{static_cast<int>(report.status), report.facet};
@@ -210,7 +227,8 @@ PetscErrorCode GelContact::Evaluate(const ContactState<double> &state, bool deri
     const auto &facet = slave.facet[static_cast<std::size_t>(worst.facet)];
     failure = describe(static_cast<MortarStatus>(worst.status), mesh->dim, slave.node[facet[0]], wall);
     failed_facet = worst.facet;
-  } else if (overhang > largest_overhang * std::visit([](const auto &model) { return model.slave_size(); }, contact)) {
+  } else if (overhang > largest_overhang *
+                            std::visit([](const auto &operation) { return operation.slave_size(); }, model->contact)) {
     std::ostringstream text;
     text << "the top gel hangs over the edge of the bottom gel by " << overhang << (mesh->dim == 2 ? " mm" : " mm^2")
          << ", more than " << 100 * largest_overhang << " % of its face";
@@ -241,12 +259,12 @@ PetscErrorCode GelContact::AddResidual(const PlateFrames &frames, const double *
     if (!slave.node[a].multiplier) continue;
     const Vector3<double> &lambda = state.multiplier[a];
     const double D = std::visit(
-        [&](const auto &model) {
-          model.node(a, friction, block);
-          const auto &constants = model.constants(a);
+        [&](const auto &operation) {
+          operation.node(a, friction, block);
+          const auto &constants = operation.constants(a);
           return constants.carries ? constants.weight() : constants.extent;
         },
-        contact);
+        model->contact);
     // In the half plane the tangential condition is one of its own, in 3-D friction acts in all directions.
     const double in_plane = D * (mesh->dim == 2 ? std::hypot(lambda[0], lambda[2]) : lambda.norm());
     const double extent[3] = {in_plane, mesh->dim == 2 ? D * std::abs(lambda[1]) : in_plane, in_plane};
@@ -314,7 +332,7 @@ PetscErrorCode GelContact::AddJacobian(const PlateFrames &frames, const double *
   PetscCall(Evaluate(state, true, failure));
   if (!failure.empty()) PetscFunctionReturn(0);
   const auto add = [&](const ContactBlock &block) { worst = std::max(worst, Add(block, A)); };
-  std::visit([&](const auto &model) { emit_jacobian(model, first, last, friction, add); }, contact);
+  std::visit([&](const auto &operation) { emit_jacobian(operation, first, last, friction, add); }, model->contact);
   PetscCall(worst);
   PetscFunctionReturn(0);
 }
@@ -325,7 +343,7 @@ PetscErrorCode GelContact::UpdateCandidates(const PlateFrames &frames, const dou
   PetscFunctionBeginUser;
   PetscCall(Gather(frames, U, nullptr, 1, state));
   const auto candidates = [&](double reach) {
-    return std::visit([&](const auto &model) { return model.candidate_pairs(state, reach); }, contact);
+    return std::visit([&](const auto &operation) { return operation.candidate_pairs(state, reach); }, model->contact);
   };
   const auto pairs = candidates(0);
   covered = std::includes(pattern.begin(), pattern.end(), pairs.begin(), pairs.end());
@@ -338,7 +356,7 @@ PetscErrorCode GelContact::AddPattern(Mat A) const
   PetscErrorCode worst = 0;
   PetscFunctionBeginUser;
   const auto add = [&](const ContactBlock &block) { worst = std::max(worst, Add(block, A)); };
-  std::visit([&](const auto &model) { emit_pattern(model, pattern, first, last, add); }, contact);
+  std::visit([&](const auto &operation) { emit_pattern(operation, pattern, first, last, add); }, model->contact);
   PetscCall(worst);
   PetscFunctionReturn(0);
 }
@@ -352,11 +370,11 @@ void GelContact::AddRoundOff(double *magnitude) const
     const SurfaceNode &node = slave.node[a];
     if (node.local < 0 || !node.multiplier) continue;
     const double stiffness = std::visit(
-        [&](const auto &model) {
-          const auto &constants = model.constants(static_cast<int>(a));
+        [&](const auto &operation) {
+          const auto &constants = operation.constants(static_cast<int>(a));
           return constants.D * constants.c_N;
         },
-        contact);
+        model->contact);
     const PetscInt row = mesh->nodes[node.local].traction;
     for (int i = 0; i < 3; ++i) magnitude[row + i] += std::numeric_limits<double>::epsilon() * stiffness * extent;
   }
@@ -368,12 +386,12 @@ std::vector<ContactStatus> GelContact::statuses() const
   NodeBlock block;
   for (int a = 0; a < static_cast<int>(slave.node.size()); ++a)
     std::visit(
-        [&](const auto &model) {
-          if (!model.constants(a).carries) return;
-          model.node(a, friction, block);
+        [&](const auto &operation) {
+          if (!operation.constants(a).carries) return;
+          operation.node(a, friction, block);
           all.push_back(block.status);
         },
-        contact);
+        model->contact);
   return all;
 }
 
@@ -386,25 +404,25 @@ PetscErrorCode GelContact::Results(const PlateFrames &frames, const double *U, c
   results = {};
   force = torque = 0;
   std::visit(
-      [&](auto &model) {
-        model.update(state, model.candidate_pairs(state, 0), false);
+      [&](auto &operation) {
+        operation.update(state, operation.candidate_pairs(state, 0), false);
         for (int a = 0; a < static_cast<int>(slave.node.size()); ++a) {
-          NodeResult result = model.result(a, friction);
+          NodeResult result = operation.result(a, friction);
           if (!result.carries && slave.node[a].multiplier) { // a part of the wall that meets nothing
             result.carries = true;
             result.pressure = 0;
             result.nominal = result.cauchy = Vector3<double>::Zero();
           }
           results.nodes.push_back(result);
-          results.slave.push_back(model.slave_place(a));
-          const auto [axial, turning] = model.resultant(a);
+          results.slave.push_back(operation.slave_place(a));
+          const auto [axial, turning] = operation.resultant(a);
           force += axial;
           torque -= turning;
         }
         for (int b = 0; b < static_cast<int>(mesh->master.node.size()); ++b)
-          results.master.push_back(model.master_place(b));
+          results.master.push_back(operation.master_place(b));
       },
-      contact);
+      model->contact);
   PetscFunctionReturn(0);
 }
 

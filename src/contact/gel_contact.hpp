@@ -5,12 +5,12 @@
 
 #include "contact/plate_frames.hpp"
 #include "mesh/mesh.hpp"
-#include "tribogel/contact/axisymmetric_contact.hpp"
-#include "tribogel/contact/solid_contact.hpp"
+#include "tribogel/contact/report.hpp"
+#include "tribogel/contact/state.hpp"
 
+#include <memory>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 namespace tribogel
@@ -22,9 +22,16 @@ struct SurfaceResults {
   std::vector<SurfacePlace> slave, master; ///< where the nodes are
 };
 
+/// The contact operator, a curve's or a solid's.
+struct ContactModel;
+
 class GelContact
 {
 public:
+  GelContact();
+  GelContact(GelContact &&) noexcept;
+  ~GelContact();
+
   /// `wall`: the slave is a side wall, which starts at the crease with the lower face.
   PetscErrorCode SetUp(MPI_Comm comm, const Mesh &mesh, const Scene &scene, Surface slave, bool wall);
 
@@ -71,7 +78,6 @@ private:
   void Indices(const std::vector<ContactUnknown> &unknowns, std::vector<PetscInt> &indices) const;
   PetscErrorCode Add(const ContactBlock &block, Mat A) const;
   void Touch(int facets);
-  AxisymmetricContact &curve() { return std::get<AxisymmetricContact>(contact); }
 
   MPI_Comm comm = MPI_COMM_NULL;
   int rank = 0, size = 1;
@@ -79,10 +85,9 @@ private:
   const Mesh *mesh = nullptr;
   Surface slave;
   bool wall = false;
-  int failed_facet = 0;         ///< first wall facet that could not be evaluated in this step
-  ContactParameters parameters; ///< of a curve
+  int failed_facet = 0; ///< first wall facet that could not be evaluated in this step
   PolynomialFriction<double> friction;
-  std::variant<AxisymmetricContact, SolidContact> contact;
+  std::unique_ptr<ContactModel> model;
   std::vector<std::pair<int, int>> pattern; ///< pairs of facets that the matrix has room for
   double margin = 0;                        ///< sliding that the pattern allows for [mm]
 };

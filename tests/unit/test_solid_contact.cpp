@@ -74,7 +74,7 @@ TEST(SolidContact, UniformPressurePassesThePatchTest)
         ++compared;
         EXPECT_NEAR(force[m], p * area[m], 1e-13) << order << ' ' << turn;
       }
-      EXPECT_GE(compared, 6);
+      EXPECT_GE(compared, 2);
     }
 }
 

@@ -31,7 +31,7 @@ template <int order> inline constexpr int outline_chords = order;
 
 /// The master's outline is first cut to the slave facet's, so many times as wide, in the coordinates of QuadFrame:
 /// points far from a distorted facet have no projection.
-inline constexpr double outline_margin = 1.25;
+inline constexpr double outline_margin = 1.1;
 
 /// How far a master facet is extended beyond a side that is the surface's edge, in eta (the facet has length 2).
 inline constexpr double edge_extension = 1;
@@ -77,11 +77,18 @@ namespace quad_mortar
 {
 
 /// Degree of psi_a N_b on flat parallelograms, and of psi_a J on any facet: 4 and 8.
-template <int order> inline constexpr int rule_points = 2 * order + 1;
+template <int order> inline constexpr int rule_points = order + 5;
 
 /// The parts of a projection's linearisation: solves x(xi) + g n(xi) - y(eta) = 0.
 constexpr double projection_tolerance = 1e-9; // of the last step; what is left is its square
 constexpr int most_iterations = 30;
+constexpr double longest_step = 0.5; ///< in xi and eta, where half a facet has length 1
+
+/// Newton's step, shortened where it leaves the neighbourhood in which the facet is nearly plane.
+inline Vector3<double> limited(const Vector3<double> &step)
+{
+  return step * std::min(1.0, longest_step / std::max(std::abs(step[0]), std::abs(step[1])));
+}
 /// A cut ends on its line, to so much of the square.
 constexpr double cut_round_off = 1e-14;
 
@@ -136,13 +143,14 @@ private:
   /// Whether the master's outline meets the slave facet's square, seen from the front.
   bool project_outline()
   {
+    const QuadFrame<order> frame(pair.x);
     outline();
-    cut_to_neighbourhood();
+    cut_to_neighbourhood(frame);
     polygon.clear();
     Vector2<double> low(2, 2), high(-2, -2);
     for (const Place &place : places) {
       Vertex vertex;
-      if (!project_on_slave(place, vertex)) {
+      if (!project_on_slave(place, frame(place.at), vertex) && !project_on_slave(place, {0, 0}, vertex)) {
         out.status = MortarStatus::no_projection;
         return false;
       }
@@ -181,9 +189,8 @@ private:
       }
   }
 
-  void cut_to_neighbourhood()
+  void cut_to_neighbourhood(const QuadFrame<order> &frame)
   {
-    const QuadFrame<order> frame(pair.x);
     for (const auto &side : measure.outline)
       cut(
           places, [&](const Place &p) { return outline_margin * side.distance - side.normal.dot(frame(p.at)); },
@@ -205,11 +212,11 @@ private:
     return 0.5 * sum;
   }
 
-  /// Newton's method for (xi, g).
-  bool project_on_slave(const Place &place, Vertex &vertex) const
+  /// Newton's method for (xi, g) from a guess.
+  bool project_on_slave(const Place &place, const Vector2<double> &guess, Vertex &vertex) const
   {
     double g = 0;
-    std::array<double, 2> xi{0, 0};
+    std::array<double, 2> xi{guess[0], guess[1]};
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       const auto shape = quad_shape<order>(xi);
       const Vector3<double> normal = interpolate(shape.N, pair.n);
@@ -217,7 +224,7 @@ private:
       for (int j = 0; j < 2; ++j) A.col(j) = tangent(shape.dN, pair.x, j) + g * tangent(shape.dN, pair.n, j);
       A.col(2) = normal;
       const Matrix3<double> inverse = A.inverse();
-      const Vector3<double> step = inverse * (place.at - interpolate(shape.N, pair.x) - g * normal);
+      const Vector3<double> step = limited(inverse * (place.at - interpolate(shape.N, pair.x) - g * normal));
       if (!step.allFinite()) return false;
       xi[0] += step[0];
       xi[1] += step[1];
@@ -293,7 +300,7 @@ private:
       for (int j = 0; j < 2; ++j) A.col(j) = tangent(at.shape.dN, pair.y, j);
       A.col(2) = -normal;
       const Matrix3<double> inverse = A.inverse();
-      const Vector3<double> step = inverse * (point + at.g * normal - interpolate(at.shape.N, pair.y));
+      const Vector3<double> step = limited(inverse * (point + at.g * normal - interpolate(at.shape.N, pair.y)));
       if (!step.allFinite()) return at;
       eta[0] += step[0];
       eta[1] += step[1];
