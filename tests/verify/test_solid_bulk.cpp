@@ -178,8 +178,24 @@ TEST(solid_bulk, AQuarterOfABlockIsUniform)
     };
     for (int k = 0; k < 60; ++k) (P(0.5 * (low + high))(0, 0) < 0 ? low : high) = 0.5 * (low + high);
     const double N = recorder.rows.back().measurement.normal_force, exact = -3 * P(low)(2, 2);
-    std::printf("order %d: force %.15g of %.15g\n", order, N, exact);
+    Vec U, Udot;
+    const double *u;
+    double worst = 0;
+    ASSERT_EQ(DMCreateLocalVector(problem.mesh.dm, &U), 0);
+    ASSERT_EQ(DMCreateLocalVector(problem.mesh.dm, &Udot), 0);
+    ASSERT_EQ(problem.LocalState(U, Udot), 0);
+    ASSERT_EQ(VecGetArrayRead(U, &u), 0);
+    for (const Node &node : problem.mesh.nodes) {
+      const auto &X = node.X;
+      const Vector right((low - 1) * X[0], (low - 1) * X[1], (lambda - 1) * (X[2] + height));
+      worst = std::max(worst, (Vector(u + node.displacement) - right).norm());
+    }
+    ASSERT_EQ(VecRestoreArrayRead(U, &u), 0);
+    ASSERT_EQ(VecDestroy(&U), 0);
+    ASSERT_EQ(VecDestroy(&Udot), 0);
+    std::printf("order %d: force %.15g of %.15g, largest error of a displacement %.2e mm\n", order, N, exact, worst);
     EXPECT_NEAR(N / exact, 1, 1e-10);
+    EXPECT_LT(worst, 1e-10);
   }
 }
 

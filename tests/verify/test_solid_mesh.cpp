@@ -3,6 +3,8 @@
 /// point out of the bodies: their vector areas add up to those of the plane faces, and to nothing round the wall.
 #include "solids.hpp"
 
+#include "tribogel/element/facet_weights.hpp"
+
 #include <limits>
 #include <numbers>
 
@@ -81,6 +83,14 @@ template <int order> Area area_of(const Surface &surface)
   return sum;
 }
 
+template <int order> std::vector<double> weights_of(const Surface &surface, const std::array<int, 9> &facet)
+{
+  std::array<std::array<double, 3>, tensor_nodes<2, order>> X;
+  for (std::size_t b = 0; b < X.size(); ++b) X[b] = surface.node[facet[b]].X;
+  const auto weights = facet_weights<order>(X);
+  return {weights.begin(), weights.end()};
+}
+
 } // namespace
 
 TEST(solid_mesh, NodesOfTheOutlineLieOnTheCircle)
@@ -156,6 +166,14 @@ TEST(solid_mesh, SurfacesPointOutwards)
       EXPECT_LT(wall[body].vector.norm(), 1e-12 * A[body]);
       EXPECT_NEAR(wall[body].flux / (2 * size.volume[body]), 1, 1e-12); // div (x, y, 0)
     }
+    double sum = 0, smallest = A[0];
+    for (const auto &facet : mesh.slave.facet)
+      for (const double weight : order == 1 ? weights_of<1>(mesh.slave, facet) : weights_of<2>(mesh.slave, facet)) {
+        sum += weight;
+        smallest = std::min(smallest, weight);
+      }
+    EXPECT_NEAR(sum / A[1], 1, 1e-12);
+    EXPECT_GT(smallest, 0); // the corners of 9-node facets too
     for (const auto &node : mesh.slave.node) EXPECT_EQ(node.multiplier, true);
     const auto rim =
         static_cast<std::size_t>(std::count_if(mesh.slave.node.begin(), mesh.slave.node.end(), [&](auto &n) {
