@@ -133,7 +133,7 @@ def damaged_file(random, options):
     if about in kinds:
         case.files = {path: kinds[about], "other.opts": b"-options_file ./bad.opts\n"}
     elif about == "a device":
-        path = random.choice(("/dev/null/x", "/proc/self/mem", "a_file/x"))
+        path = random.choice(("/dev/null/x", "/dev/zero", "/dev/stdin", "/proc/self/mem", "a_file/x"))
     elif about == "no such file":
         path = random.choice(("bad.opts", "x" * 300, "\n", "\x1b[2J", "a_run"))
     else:
@@ -149,14 +149,17 @@ def damaged_file(random, options):
     return case
 
 
-def some_value(random, option):
+def some_value(random, option, now):
+    """A value of the right kind, mostly; of lists mostly as many as there are."""
     if option.kind == "choice" and random.random() < 0.7:
         return random.choice(option.choices)
     def one():
         return random.choice((number(between(random, 1e-3, 1e3)), number(-between(random, 1e-3, 1e3)), str(random.randint(0, 4)),
                               random.choice(("0", "-0", "1e-300", "1e300", "1e-12", "1e12", "0.5", "+4", ".5", "5e-324"))))
     if option.kind == "reals":
-        return ",".join(one() for _ in range(random.choice((1, 2, 2, 3, 3, 5))))
+        count = len(now.split(",")) if now and random.random() < 0.8 else random.choice((1, 2, 2, 3, 3, 5))
+        old = now.split(",") if now else []
+        return ",".join(old[k] if k < len(old) and random.random() < 0.5 else one() for k in range(count))
     if option.kind == "flag":
         return random.choice(("true", "false", None))
     return one() if random.random() < 0.9 else random.choice(NO_NUMBERS + NO_LISTS)
@@ -170,7 +173,7 @@ def chaos(random, options):
         tried = dict(settings)
         for _ in range(random.randint(1, 3)):
             option = random.choice([o for o in options if o.kind != "path" and o.name != "-wall_time"])
-            tried[option.name] = some_value(random, option)
+            tried[option.name] = some_value(random, option, settings.get(option.name))
         if elements_of(tried, default) < ELEMENTS_AT_MOST:
             break
     else:

@@ -69,7 +69,10 @@ void check_options_file(const std::string &path, std::vector<std::string> opened
     throw UserError{"-options_file = " + path + ": " + why + "; allowed: a readable text file of options"};
   };
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) unreadable("is a directory");
+  const auto kind = std::filesystem::status(path, ignored).type();
+  if (kind == std::filesystem::file_type::directory) unreadable("is a directory");
+  if (std::filesystem::exists(path, ignored) && kind != std::filesystem::file_type::regular)
+    unreadable("is a device or a pipe, which cannot be read twice");
   std::ifstream file(path);
   if (!file) unreadable(std::strerror(errno));
   if (is_yaml(path)) return;
@@ -87,6 +90,7 @@ void check_options_file(const std::string &path, std::vector<std::string> opened
       check_options_file(words[1], opened);
     }
   }
+  if (file.bad()) unreadable(std::strerror(errno));
 }
 
 } // namespace

@@ -66,7 +66,7 @@ bool begins_like_ours(const std::string &name)
                                       "friction", "schedule",  "element",    "elements", "contact", "maxwell", "time",
                                       "output",   "overwrite", "checkpoint", "restart",  "wall"};
   const std::string plain = without_dashes(name);
-  const std::string first = plain.substr(0, plain.find('_'));
+  const std::string first = plain.substr(0, plain.find_first_of("_="));
   return std::any_of(std::begin(words), std::end(words), [&](const char *word) { return first == word; }) ||
          plain.starts_with("mesh_") || plain == "error_estimate";
 }
@@ -102,6 +102,24 @@ std::vector<std::string> all_names(const std::string &help)
     if (is_option_name(word)) names.push_back(word);
   }
   return names;
+}
+
+/// PETSc passes over an option that wants a number and has none. Those that do show a number in their help.
+PetscErrorCode ExpectNumbers(const std::string &help)
+{
+  static const std::regex entry("^ +(-\\w+):? <(now )?[-+]?[.0-9]");
+  std::istringstream lines(help);
+  PetscFunctionBeginUser;
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch parts;
+    GivenOptions given;
+    bool found;
+    if (!std::regex_search(line, parts, entry)) continue;
+    const std::string name = parts[1];
+    PetscCall(GetOption(name, given, found));
+    if (found && given[name].empty()) throw UserError{name + ": value missing; allowed: a number, see -help petsc"};
+  }
+  PetscFunctionReturn(0);
 }
 
 } // namespace
@@ -183,6 +201,7 @@ PetscErrorCode CheckUnusedOptions(const CommandLine &line, const std::string &pe
 {
   std::vector<LeftOption> left;
   PetscFunctionBeginUser;
+  PetscCall(ExpectNumbers(petsc_help));
   PetscCall(GetLeftOptions(left));
   for (const LeftOption &option : left) {
     if (is_read_late(without_dashes(option.name))) continue;

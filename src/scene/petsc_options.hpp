@@ -22,7 +22,8 @@ PetscErrorCode ReadScene(SceneInput &input);
 
 /// To be called when PETSc has read all it will ever read before time stepping, after a first solve. An option that
 /// nothing has read is refused (UserError) if it stands on the command line, and becomes a warning if it came from
-/// elsewhere. `petsc_help` is what PETSc said of its options meanwhile (TakePetscHelp); nearest names come from it.
+/// elsewhere; one that wants a number and has none is refused. `petsc_help` is what PETSc said of its options meanwhile
+/// (TakePetscHelp); nearest names come from it.
 PetscErrorCode CheckUnusedOptions(const CommandLine &line, const std::string &petsc_help,
                                   std::vector<std::string> &warnings);
 

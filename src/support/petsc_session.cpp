@@ -49,7 +49,9 @@ std::string options_behind(const std::string &message)
   PetscInitialized(&ready);
   if (!ready) return sources;
   if (PetscOptionsGetAll(nullptr, &all) != 0 || !all) return {};
-  const std::vector<std::string> words = split(all), said = split(message);
+  std::string unquoted = message;
+  std::replace(unquoted.begin(), unquoted.end(), '"', ' ');
+  const std::vector<std::string> words = split(all), said = split(unquoted);
   PetscFree(all);
   std::string found;
   for (std::size_t i = 1; i < words.size(); ++i)

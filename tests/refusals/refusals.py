@@ -71,6 +71,11 @@ REFUSALS = [
     ("output with too long a name", ["-output_directory", "new/" + "x" * 300], ["-output_directory = new/x", "name too long"]),
     ("output onto a regular file", ["-output_directory", "a_file"], ["-output_directory = a_file"]),
     ("existing run", ["-output_directory", "a_run"], ["-output_directory = a_run", "-overwrite"]),
+    ("options file that is a device", ["-options_file", "/dev/zero"], ["-options_file = /dev/zero", "device"]),
+    ("options file that cannot be read", ["-options_file", "/proc/self/mem"], ["-options_file = /proc/self/mem"]),
+    ("equals sign", ["-options_file", "equals.opts"], ["-task=simulate: unknown"]),
+    ("solver option without its number", ["-snes_atol"], ["-snes_atol: value missing"]),
+    ("unknown step control", ["-ts_adapt_type", "fast"], ["-ts_adapt_type = fast"]),
     ("file with a byte 0", ["-options_file", "zero_byte.opts"], ["zero_byte.opts", "line 1 is no text"]),
     ("wrong YAML", ["-options_file", "wrong.yaml"], ["-options_file = wrong.yaml", "YAML"]),
     ("control characters", ["-top_height", "\x1b[2J"], ["-top_height = ?[2J"]),
@@ -124,6 +129,7 @@ def prepare(directory):
     (directory / "blanks.opts").write_text("# the list below has a blank\n-friction_coefficients 0 8e-4\n")
     (directory / "bare.opts").write_text("top_radius 9\n")
     (directory / "zero.opts").write_text("-top_height 0 # mm\n")
+    (directory / "equals.opts").write_text("-task=simulate\n")
     (directory / "zero_byte.opts").write_text("-top_height 4\0 5\n")
     (directory / "wrong.yaml").write_text("top_height: [4\n")
     (directory / "unused.opts").write_text("-pc_hypre_type boomeramg\n")
