@@ -17,7 +17,7 @@ SOLVER_NAMES = ("-snes_rtol", "-snes_atol", "-snes_stol", "-snes_max_it", "-snes
                 "-snes_linesearch_damping", "-snes_linesearch_type", "-snes_type", "-ksp_type", "-pc_type", "-mat_type",
                 "-vec_type", "-snes_mf", "-snes_fd", "-snes_test_jacobian", "-ksp_gmres_restart", "-ts_rtol", "-ts_atol",
                 "-pc_factor_mat_solver_type", "-mat_mumps_icntl_14", "-ts_time_step", "-ts_adapt_monitor", "-snes_force_iteration",
-                "-ts_theta_theta", "-options_file_yaml", "-options_string_yaml", "-dm_vec_type", "-info", "-nox", "-help")
+                "-ts_theta_theta", "-options_file_yaml", "-options_string_yaml", "-dm_vec_type", "-nox", "-help")
 SOLVER_VALUES = ("0", "1", "-1", "2", "1e-300", "1e300", "0.5", "nan", "inf", "true", "false", "none", "lu", "cg", "preonly",
                  "basic", "newtontr", "nleqerr", "richardson", "ilu", "jacobi", "dense", "aij", "umfpack", "mumps", "cp", "l2",
                  "matchstep", "interpolate", "-5", "2147483647", "2147483648", "x", "1,2", ":", "/", "decide", "default")

@@ -205,7 +205,7 @@ def bad_prefix(random, _, settings):
 
 
 SOLVER_MISTAKES = (
-    ("-ksp_type", "gmrs"), ("-pc_type", "luu"), ("-snes_type", "newton"), ("-ts_type", "beuler"), ("-snes_rtol", "small"),
+    ("-ksp_type", "gmrs"), ("-pc_type", "luu"), ("-snes_type", "newton"), ("-ts_type", "eulr"), ("-snes_rtol", "small"),
     ("-ksp_rtol", "1e-5x"), ("-snes_max_it", "1.5"), ("-snes_max_it", "many"), ("-ksp_max_it", "1,2"), ("-snes_atol", ""),
     ("-snes_linesearch_type", "bq"), ("-ts_adapt_type", "fast"), ("-ts_max_steps", "x"), ("-ts_dt", "soon"),
     ("-ksp_typ", "gmres"), ("-snes_rtoll", "1e-3"), ("-pc_factor_mat_solver_type", "mump"), ("-ts_dtt", "1"),
