@@ -46,6 +46,27 @@ TEST(solid_ranks, GiveTheNumbersOfOne)
   }
 }
 
+/// Two gels in contact, on more ranks than some own contact on.
+TEST(solid_ranks, GiveTheNumbersOfOneInContact)
+{
+  const SolverOptions options(newton_tolerance(1e-12));
+  Scene scene = paper_scene(3, 1);
+  scene.model = Model::solid;
+  scene.friction = {{0.02, 8e-3}, {0, 1}};
+  scene.schedule = schedule_from_rates({3, 5}, {0.4, 0.4}, {0.1, 0.3});
+  scene.schedule_kind = ScheduleKind::steady;
+  Problem shared, single;
+  Recorder many(""), one("");
+  run_on(PETSC_COMM_WORLD, scene, shared, many);
+  run_on(PETSC_COMM_SELF, scene, single, one);
+  ASSERT_EQ(many.rows.size(), one.rows.size());
+  const Measurement &a = many.rows.back().measurement, &b = one.rows.back().measurement;
+  EXPECT_GT(b.normal_force, 10);
+  EXPECT_GT(b.torque, 1);
+  EXPECT_NEAR(a.normal_force, b.normal_force, 1e-10 * b.normal_force);
+  EXPECT_NEAR(a.torque, b.torque, 1e-10 * b.normal_force * scene.top.radius);
+}
+
 TEST(solid_ranks, KnowTheSurfacesEverywhere)
 {
   for (int order : {1, 2}) {

@@ -173,7 +173,8 @@ TEST(SolidContact, JacobianIsTheDerivativeInEveryState)
       });
       const double h = 1e-5;
       double worst = 0;
-      for (Eigen::Index column = 0; column < size; ++column) {
+      const Eigen::Index stride = order == 1 ? 1 : 7; // of order 2 a part, in all components
+      for (Eigen::Index column = 0; column < size; column += stride) {
         const auto perturbed = [&](double by) {
           SolidScene moved = scene;
           const Eigen::Index node = column / 3, i = column % 3;

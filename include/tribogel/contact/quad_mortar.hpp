@@ -76,7 +76,10 @@ template <int n> TriangleRule<n> triangle_rule()
 namespace quad_mortar
 {
 
-/// Degree of psi_a N_b on flat parallelograms, and of psi_a J on any facet: 4 and 8.
+/// Degree 10 and 12 a triangle. On flat parallelograms psi_a N_b has degree 4 and 8; elsewhere it is no polynomial, and
+/// what the rule misses changes as the surfaces slide and the cells are cut otherwise. On the paper scene, whose two
+/// meshes begin with common lines where round-off decides about cuts, Newton's method stalled at 4 times its tolerance
+/// with rules of degree 4, in 184 of 670 solves; with these no solve fails.
 template <int order> inline constexpr int rule_points = order + 5;
 
 /// The parts of a projection's linearisation: solves x(xi) + g n(xi) - y(eta) = 0.
