@@ -3,7 +3,7 @@
 ///     M_ab = int psi_a(xi) N_b(eta(xi)) J(xi) dxi,     J the reference weight of the slave facet
 ///
 /// over the part of the slave facet that faces the master facet: along the normals n(xi) = sum N_a n_a (THEORY, section
-/// 3.6). The master's outline, as a polygon of points at fixed eta, is projected into the slave's parameter plane,
+/// 3.7). The master's outline, as a polygon of points at fixed eta, is projected into the slave's parameter plane,
 ///
 ///     x(xi) + g n(xi) = y(eta)                                                                   for (xi, g),
 ///

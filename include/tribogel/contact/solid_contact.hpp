@@ -1,6 +1,6 @@
 /// The contact operator of two bodies in space: slave surface (lower face of the top body) on master surface (upper
 /// face of the bottom body), each in the frame of its plate. Everything is evaluated in the slave's frame, which turns
-/// with the top plate about its axis (THEORY, section 3.6):
+/// with the top plate about its axis (THEORY, section 3.7):
 ///
 ///     x = X + u + travel e_z,    y = R (X + u) - Q_s^T c,    R = Q_s^T Q_m,    Q the plates' rotations, c the axis
 ///
