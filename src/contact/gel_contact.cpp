@@ -1,25 +1,16 @@
 #include "contact/gel_contact.hpp"
 
+#include "contact/contact_model.hpp"
 #include "contact/surface_reference.hpp"
-#include "tribogel/contact/axisymmetric_contact.hpp"
 #include "tribogel/contact/rolling.hpp"
-#include "tribogel/contact/solid_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
-#include <variant>
 
 namespace tribogel
 {
-
-struct ContactModel {
-  std::variant<AxisymmetricContact, SolidContact> contact;
-  ContactParameters parameters; ///< of a curve
-
-  AxisymmetricContact &curve() { return std::get<AxisymmetricContact>(contact); }
-};
 
 GelContact::GelContact() : model(std::make_unique<ContactModel>()) {}
 GelContact::GelContact(GelContact &&) noexcept = default;

@@ -22,8 +22,7 @@ struct SurfaceResults {
   std::vector<SurfacePlace> slave, master; ///< where the nodes are
 };
 
-/// The contact operator, a curve's or a solid's.
-struct ContactModel;
+struct ContactModel; ///< the contact operator, a curve's or a solid's (contact_model.hpp)
 
 class GelContact
 {
@@ -62,6 +61,8 @@ public:
   /// reactions; the same on every rank. Collective.
   PetscErrorCode Results(const PlateFrames &frames, const double *U, const double *Udot, SurfaceResults &results,
                          double &force, double &torque);
+
+  const ContactModel &operation() const { return *model; }
 
   /// Of the nodes that carry a multiplier, in the last evaluation of a residual or Jacobian by a single rank.
   std::vector<ContactStatus> statuses() const;

@@ -9,6 +9,7 @@
 /// The approach of finite blocks of width L is a^2/R + c N/L (1 + O(a^2/L^2)) (c: the displacement that a point force
 /// leaves out by having no half-space behind L), with the same c for similar blocks: two widths and two unknowns give
 /// the factor of a^2/R.
+#include "contact/contact_model.hpp"
 #include "hertz.hpp"
 
 namespace tribogel::test
@@ -72,7 +73,7 @@ Errors errors_of(const HertzScene &is)
   Errors sum;
   recorder.on_row = [&](const HistoryRow &row) {
     sum.newton += row.report.newton_iterations;
-    if (row.time > 0) add_load(is, recorder, problem.contact->model().reference(), sum);
+    if (row.time > 0) add_load(is, recorder, problem.contact->lower_face().operation().curve().reference(), sum);
   };
   run(is.scene(schedule_from_rates(times, approach, std::vector<double>(4, 0))), is.blocks(), problem, recorder);
   sum.unknowns = problem.mesh.unknowns;

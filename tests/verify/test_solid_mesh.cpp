@@ -3,7 +3,7 @@
 /// point out of the bodies: their vector areas add up to those of the plane faces, and to nothing round the wall.
 #include "solids.hpp"
 
-#include "tribogel/element/facet_weights.hpp"
+#include "tribogel/contact/quad_facet.hpp"
 
 #include <limits>
 #include <numbers>
@@ -85,9 +85,9 @@ template <int order> Area area_of(const Surface &surface)
 
 template <int order> std::vector<double> weights_of(const Surface &surface, const std::array<int, 9> &facet)
 {
-  std::array<std::array<double, 3>, tensor_nodes<2, order>> X;
-  for (std::size_t b = 0; b < X.size(); ++b) X[b] = surface.node[facet[b]].X;
-  const auto weights = facet_weights<order>(X);
+  QuadPoints<order> X;
+  for (std::size_t b = 0; b < X.size(); ++b) X[b] = Vector3<double>(surface.node[facet[b]].X.data());
+  const auto weights = quad_measure<order>(X).basis.D;
   return {weights.begin(), weights.end()};
 }
 

@@ -7,6 +7,7 @@
 ///
 /// with the nodes' current areas, exactly for the discrete operator. Elastic gels forget the way: full slip backwards
 /// has the same torque with the other sign.
+#include "contact/contact_model.hpp"
 #include "scenes.hpp"
 #include "solver_options.hpp"
 
@@ -40,7 +41,7 @@ struct SlipTorque {
 SlipTorque slip_torque(const Problem &problem, const std::vector<ProfileRow> &profile)
 {
   SlipTorque sum;
-  const AxisymmetricContact &model = problem.contact->model();
+  const AxisymmetricContact &model = problem.contact->lower_face().operation().curve();
   const ContactGeometry &reference = model.reference();
   for (std::size_t a = 0; a < reference.nodes.size(); ++a) {
     const NodeResult node = model.result(static_cast<int>(a), problem.scene.friction);

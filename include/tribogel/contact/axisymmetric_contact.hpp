@@ -248,9 +248,9 @@ template <FrictionLaw<double> Law> NodeResult AxisymmetricContact::result(int a,
 {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto &constants = geometry.nodes[a];
-  const Vector3<double> undefined = Vector3<double>::Constant(nan);
+  const Vector3<double> none = Vector3<double>::Constant(nan);
   if (!constants.carries)
-    return {false, ContactStatus::open, constants.weight(), nan, nan, nan, undefined, undefined, undefined, undefined};
+    return {false, ContactStatus::open, constants.weight(), nan, nan, nan, none, none, none, none};
   const NodeContact<double> node = contact_of(a, law);
   const Vector3<double> &lambda = now.multiplier[a], normal(node.n.r, 0, node.n.z);
   const double area = nodal_area(geometry.slave_chain, a, constants.tied, x);
