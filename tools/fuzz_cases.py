@@ -8,7 +8,7 @@ from fuzz_spoilers import NO_LISTS, NO_NUMBERS, SPOILERS, Case, wrong_values
 ELEMENTS_AT_MOST = 400  # of scenes that may run: more would take long without being wrong
 HARMLESS = (["-log_view"], ["-ts_monitor"], ["-options_left"], ["-snes_converged_reason"], ["-ksp_converged_reason"],
             ["-snes_max_it", "60"], ["-malloc_debug"], ["-options_view"], ["-memory_view"], ["-snes_monitor"],
-            ["-mat_view", "::ascii_info"], ["-ksp_view"], ["-skip_petscrc"], ["-ts_view"])
+            ["-mat_view", "::ascii_info"], ["-ksp_view"], ["-ts_view"])
 SOLVER_NAMES = ("-snes_rtol", "-snes_atol", "-snes_stol", "-snes_max_it", "-snes_divergence_tolerance", "-snes_max_funcs",
                 "-ksp_rtol", "-ksp_atol", "-ksp_max_it", "-ts_dt", "-ts_max_steps", "-ts_max_time", "-ts_init_time",
                 "-ts_adapt_dt_min", "-ts_adapt_dt_max", "-ts_adapt_safety", "-ts_adapt_clip", "-ts_max_reject",

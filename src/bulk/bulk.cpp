@@ -295,7 +295,8 @@ PetscErrorCode Make(const Mesh &mesh, const Scene &scene, const Kinematics &kine
   const Viscoelastic<double> materials[2] = {scene.bottom.material, scene.top.material};
   PetscFunctionBeginUser;
   auto made = std::make_unique<BulkOf<Kinematics, order>>(mesh, kinematics, materials);
-  PetscCheck(made->sound, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "the mesh has a degenerate cell");
+  PetscCheck(made->sound, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
+             "the mesh has a degenerate cell; allowed: other radii and heights, or another -mesh_grading");
   bulk = std::move(made);
   PetscFunctionReturn(0);
 }

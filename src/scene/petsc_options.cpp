@@ -64,7 +64,7 @@ bool begins_like_ours(const std::string &name)
 {
   static const char *const words[] = {"model",    "task",      "specimens",  "top",      "bottom",  "initial", "plate",
                                       "friction", "schedule",  "element",    "elements", "contact", "maxwell", "time",
-                                      "output",   "overwrite", "checkpoint", "restart",  "wall"};
+                                      "output",   "overwrite", "checkpoint", "restart",  "wall",    "phase"};
   const std::string plain = without_dashes(name);
   const std::string first = plain.substr(0, plain.find_first_of("_="));
   return std::any_of(std::begin(words), std::end(words), [&](const char *word) { return first == word; }) ||

@@ -40,6 +40,16 @@ std::vector<std::string> split(const std::string &text)
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
+/// The same word but for a full stop, or the same number.
+bool same(const std::string &said, const std::string &value)
+{
+  const std::string word = said.substr(0, said.find_last_not_of(".,;:") + 1);
+  if (word == value) return true;
+  char *end_of_word = nullptr, *end_of_value = nullptr;
+  const double x = std::strtod(word.c_str(), &end_of_word), y = std::strtod(value.c_str(), &end_of_value);
+  return x == y && end_of_word != word.c_str() && *end_of_word == 0 && *end_of_value == 0;
+}
+
 /// The options in the database whose value is a word of the message: PETSc does not say which one it could not read.
 /// Before there is a database: where PETSc was told to read.
 std::string options_behind(const std::string &message)
@@ -55,7 +65,8 @@ std::string options_behind(const std::string &message)
   PetscFree(all);
   std::string found;
   for (std::size_t i = 1; i < words.size(); ++i)
-    if (words[i - 1][0] == '-' && std::find(said.begin(), said.end(), words[i]) != said.end())
+    if (words[i - 1][0] == '-' &&
+        std::any_of(said.begin(), said.end(), [&](const std::string &word) { return same(word, words[i]); }))
       found += (found.empty() ? "" : ", ") + words[i - 1] + " = " + words[i];
   return found;
 }
