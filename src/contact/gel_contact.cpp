@@ -49,13 +49,14 @@ std::string describe(MortarStatus status, int dim, const SurfaceNode &near, bool
 }
 
 /// The Jacobian's blocks of slave nodes first <= a < last, and the rows and columns they can have; a curve's come node
-/// by node.
+/// by node. A wall's first node has its multiplier on the face.
 template <class Emit>
-void emit_jacobian(const AxisymmetricContact &contact, int first, int last, const PolynomialFriction<double> &law,
-                   const Emit &emit)
+void emit_jacobian(const AxisymmetricContact &contact, const Surface &slave, int first, int last,
+                   const PolynomialFriction<double> &law, const Emit &emit)
 {
   NodeBlock block;
   for (int a = first; a < last; ++a) {
+    if (!slave.node[a].multiplier) continue;
     contact.node(a, law, block);
     ContactBlock all = unknowns_of(a, block);
     all.values = block.jacobian;
@@ -64,19 +65,23 @@ void emit_jacobian(const AxisymmetricContact &contact, int first, int last, cons
 }
 
 template <class Emit>
-void emit_jacobian(const SolidContact &contact, int, int, const PolynomialFriction<double> &law, const Emit &emit)
+void emit_jacobian(const SolidContact &contact, const Surface &, int, int, const PolynomialFriction<double> &law,
+                   const Emit &emit)
 {
   contact.jacobian(law, emit);
 }
 
 template <class Emit>
-void emit_pattern(const AxisymmetricContact &contact, FacetPairs pairs, int first, int last, const Emit &emit)
+void emit_pattern(const AxisymmetricContact &contact, const Surface &slave, FacetPairs pairs, int first, int last,
+                  const Emit &emit)
 {
-  for (int a = first; a < last; ++a) emit(unknowns_of(a, contact.pattern(a, pairs)));
+  for (int a = first; a < last; ++a)
+    if (slave.node[a].multiplier) emit(unknowns_of(a, contact.pattern(a, pairs)));
 }
 
 template <class Emit>
-void emit_pattern(const SolidContact &contact, const SolidContact::Pairs &pairs, int first, int last, const Emit &emit)
+void emit_pattern(const SolidContact &contact, const Surface &, const SolidContact::Pairs &pairs, int first, int last,
+                  const Emit &emit)
 {
   contact.pattern(pairs, first, last, emit);
 }
@@ -323,7 +328,8 @@ PetscErrorCode GelContact::AddJacobian(const PlateFrames &frames, const double *
   PetscCall(Evaluate(state, true, failure));
   if (!failure.empty()) PetscFunctionReturn(0);
   const auto add = [&](const ContactBlock &block) { worst = std::max(worst, Add(block, A)); };
-  std::visit([&](const auto &operation) { emit_jacobian(operation, first, last, friction, add); }, model->contact);
+  std::visit([&](const auto &operation) { emit_jacobian(operation, slave, first, last, friction, add); },
+             model->contact);
   PetscCall(worst);
   PetscFunctionReturn(0);
 }
@@ -347,7 +353,7 @@ PetscErrorCode GelContact::AddPattern(Mat A) const
   PetscErrorCode worst = 0;
   PetscFunctionBeginUser;
   const auto add = [&](const ContactBlock &block) { worst = std::max(worst, Add(block, A)); };
-  std::visit([&](const auto &operation) { emit_pattern(operation, pattern, first, last, add); }, model->contact);
+  std::visit([&](const auto &operation) { emit_pattern(operation, slave, pattern, first, last, add); }, model->contact);
   PetscCall(worst);
   PetscFunctionReturn(0);
 }

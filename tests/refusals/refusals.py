@@ -86,7 +86,7 @@ REFUSALS = [
     ("zero height", ["-top_height", "0"], ["-top_height = 0", "> 0"]),
     ("top wider than bottom", ["-top_radius", "13"], ["-top_radius = 13", "-bottom_radius"]),
     ("more approach than height", ["-schedule_approach", "1,1,1,1,9"], ["-schedule_approach = 1,1,1,1,9", "8.4 mm"]),
-    ("model that is not built", ["-model", "solid"], ["-model = solid", "axisymmetric"]),
+    ("model that is none", ["-model", "spherical"], ["-model = spherical", "axisymmetric"]),
     ("negative exponent", ["-friction_exponents", "0,-0.5"], ["-friction_exponents = 0,-0.5", ">= 0"]),
     ("weakening below exponent 1", ["-friction_coefficients", "1,-0.2", "-friction_exponents", "0,0.5"],
      ["-friction_coefficients = 1,-0.2", "-0.2 with exponent 0.5", ">= 0"]),

@@ -252,7 +252,7 @@ TEST(OptionsScene, refuses_steady_states_that_depend_on_the_way_there)
 
 TEST(OptionsScene, refuses_unknown_words)
 {
-  expect_refused("-model", "solid");
+  expect_refused("-model", "spherical");
   expect_refused("-task", "identify");
   expect_refused("-specimens", "top");
   expect_refused("-schedule_kind", "periodic");
