@@ -82,8 +82,8 @@ namespace quad_mortar
 /// with rules of degree 4, in 184 of 670 solves; with these no solve fails.
 template <int order> inline constexpr int rule_points = order + 5;
 
-/// The parts of a projection's linearisation: solves x(xi) + g n(xi) - y(eta) = 0.
-constexpr double projection_tolerance = 1e-9; // of the last step; what is left is its square
+// Newton's method for x(xi) + g n(xi) = y(eta).
+constexpr double projection_tolerance = 1e-9; ///< of the last step; what is left is its square
 constexpr int most_iterations = 30;
 constexpr double longest_step = 0.5; ///< in xi and eta, where half a facet has length 1
 
@@ -92,6 +92,7 @@ inline Vector3<double> limited(const Vector3<double> &step)
 {
   return step * std::min(1.0, longest_step / std::max(std::abs(step[0]), std::abs(step[1])));
 }
+
 /// A cut ends on its line, to so much of the square.
 constexpr double cut_round_off = 1e-14;
 
