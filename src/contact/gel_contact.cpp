@@ -1,16 +1,25 @@
 #include "contact/gel_contact.hpp"
 
-#include "contact/contact_model.hpp"
 #include "contact/surface_reference.hpp"
+#include "tribogel/contact/axisymmetric_contact.hpp"
 #include "tribogel/contact/rolling.hpp"
+#include "tribogel/contact/solid_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <variant>
 
 namespace tribogel
 {
+
+struct ContactModel {
+  std::variant<AxisymmetricContact, SolidContact> contact;
+  ContactParameters parameters; ///< of a curve
+
+  AxisymmetricContact &curve() { return std::get<AxisymmetricContact>(contact); }
+};
 
 GelContact::GelContact() : model(std::make_unique<ContactModel>()) {}
 GelContact::GelContact(GelContact &&) noexcept = default;
@@ -375,6 +384,23 @@ void GelContact::AddRoundOff(double *magnitude) const
     const PetscInt row = mesh->nodes[node.local].traction;
     for (int i = 0; i < 3; ++i) magnitude[row + i] += std::numeric_limits<double>::epsilon() * stiffness * extent;
   }
+}
+
+std::vector<GelContact::Weight> GelContact::weights() const
+{
+  std::vector<Weight> all;
+  for (int a = 0; a < static_cast<int>(slave.node.size()); ++a)
+    std::visit(
+        [&](const auto &operation) {
+          all.push_back({operation.constants(a).carries, operation.constants(a).D});
+        },
+        model->contact);
+  return all;
+}
+
+NodeResult GelContact::result(int a) const
+{
+  return std::visit([&](const auto &operation) { return operation.result(a, friction); }, model->contact);
 }
 
 std::vector<ContactStatus> GelContact::statuses() const

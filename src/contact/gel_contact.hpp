@@ -22,7 +22,8 @@ struct SurfaceResults {
   std::vector<SurfacePlace> slave, master; ///< where the nodes are
 };
 
-struct ContactModel; ///< the contact operator, a curve's or a solid's (contact_model.hpp)
+/// The contact operator, a curve's or a solid's: its templates are most of what it takes to compile.
+struct ContactModel;
 
 class GelContact
 {
@@ -62,7 +63,15 @@ public:
   PetscErrorCode Results(const PlateFrames &frames, const double *U, const double *Udot, SurfaceResults &results,
                          double &force, double &torque);
 
-  const ContactModel &operation() const { return *model; }
+  /// Of each slave node: whether it carries a multiplier, and the constant diagonal of the mortar matrix [mm^2].
+  struct Weight {
+    bool carries;
+    double D;
+  };
+  std::vector<Weight> weights() const;
+
+  /// Of slave node a in the last evaluation by a single rank.
+  NodeResult result(int a) const;
 
   /// Of the nodes that carry a multiplier, in the last evaluation of a residual or Jacobian by a single rank.
   std::vector<ContactStatus> statuses() const;

@@ -9,7 +9,6 @@
 /// The approach of finite blocks of width L is a^2/R + c N/L (1 + O(a^2/L^2)) (c: the displacement that a point force
 /// leaves out by having no half-space behind L), with the same c for similar blocks: two widths and two unknowns give
 /// the factor of a^2/R.
-#include "contact/contact_model.hpp"
 #include "hertz.hpp"
 
 namespace tribogel::test
@@ -30,16 +29,17 @@ struct Errors {
   double travel = 0; ///< of the plate then [mm]
 };
 
-void add_load(const HertzScene &is, const Recorder &recorder, const ContactGeometry &geometry, Errors &sum)
+void add_load(const HertzScene &is, const Recorder &recorder, const std::vector<GelContact::Weight> &weights,
+              Errors &sum)
 {
   const Measurement &m = recorder.rows.back().measurement;
   const Hertz hertz(is, m.normal_force);
   double force = 0, moment = 0, difference = 0, square = 0, centre = 0, nodal = 0;
   const double facet = is.a / 4 * std::pow(0.5, is.level);
-  for (std::size_t n = 0; n < geometry.nodes.size(); ++n) {
-    if (!geometry.nodes[n].carries) continue;
+  for (std::size_t n = 0; n < weights.size(); ++n) {
+    if (!weights[n].carries) continue;
     const ProfileRow &row = recorder.last_profile[n];
-    const double D = geometry.nodes[n].D, p = row.pressure, error = p - hertz.pressure(row.r);
+    const double D = weights[n].D, p = row.pressure, error = p - hertz.pressure(row.r);
     force += D * p;
     moment += D * p * row.r * row.r;
     difference += D * error * error;
@@ -73,7 +73,7 @@ Errors errors_of(const HertzScene &is)
   Errors sum;
   recorder.on_row = [&](const HistoryRow &row) {
     sum.newton += row.report.newton_iterations;
-    if (row.time > 0) add_load(is, recorder, problem.contact->lower_face().operation().curve().reference(), sum);
+    if (row.time > 0) add_load(is, recorder, problem.contact->lower_face().weights(), sum);
   };
   run(is.scene(schedule_from_rates(times, approach, std::vector<double>(4, 0))), is.blocks(), problem, recorder);
   sum.unknowns = problem.mesh.unknowns;

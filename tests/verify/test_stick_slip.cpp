@@ -7,7 +7,6 @@
 ///
 /// with the nodes' current areas, exactly for the discrete operator. Elastic gels forget the way: full slip backwards
 /// has the same torque with the other sign.
-#include "contact/contact_model.hpp"
 #include "scenes.hpp"
 #include "solver_options.hpp"
 
@@ -41,11 +40,10 @@ struct SlipTorque {
 SlipTorque slip_torque(const Problem &problem, const std::vector<ProfileRow> &profile)
 {
   SlipTorque sum;
-  const AxisymmetricContact &model = problem.contact->lower_face().operation().curve();
-  const ContactGeometry &reference = model.reference();
-  for (std::size_t a = 0; a < reference.nodes.size(); ++a) {
-    const NodeResult node = model.result(static_cast<int>(a), problem.scene.friction);
-    const double R = reference.slave.X[a].r;
+  const std::vector<SurfaceNode> &nodes = problem.mesh.slave.node;
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    const NodeResult node = problem.contact->lower_face().result(static_cast<int>(a));
+    const double R = nodes[a].X[0];
     if (!node.carries || R == 0) continue;
     const auto row = std::find_if(profile.begin(), profile.end(), [&](const ProfileRow &at) {
       return at.surface == std::string("top") && at.reference_z == 0 && at.reference_r == R;
