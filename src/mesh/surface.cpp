@@ -23,7 +23,7 @@ std::array<int, 9> face_slots(int middle)
 {
   constexpr int stride[3] = {1, 3, 9};
   int axis = 0;
-  while (middle / stride[axis] % 3 == 1) ++axis;
+  while (axis < 2 && middle / stride[axis] % 3 == 1) ++axis;
   int xi = (axis + 1) % 3, eta = (axis + 2) % 3;
   if (middle / stride[axis] % 3 == 0) std::swap(xi, eta);
   std::array<int, 9> slots;

@@ -51,6 +51,7 @@ PetscErrorCode CellPoints(DM dm, int dim, PetscInt cell, std::vector<CellPoint> 
           ++count;
         }
     PetscCall(DMPlexRestoreTransitiveClosure(dm, point.point, PETSC_TRUE, &own_size, &own));
+    PetscCheck(count > 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "a point of a cell without corners");
     point.slot = sum / count;
     points.push_back(point);
   }

@@ -41,7 +41,8 @@ template <int order> QuadShape<order> quad_shape(const std::array<double, 2> &xi
 /// Where node `local` lies in a facet.
 template <int order> std::array<double, 2> quad_corner(int local)
 {
-  return {2.0 * (local % (order + 1)) / order - 1, 2.0 * (local / (order + 1)) / order - 1};
+  const int column = local % (order + 1), row = local / (order + 1);
+  return {2.0 * column / order - 1, 2.0 * row / order - 1};
 }
 
 /// sum_a N_a x_a

@@ -469,8 +469,7 @@ template <FrictionLaw<double> Law> NodeResult SolidContact::result(int a, const 
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto &constants = geometry.nodes[a];
   const Vector3<double> none = Vector3<double>::Constant(nan);
-  if (!constants.carries)
-    return {false, ContactStatus::open, constants.D, nan, nan, nan, none, none, none, none};
+  if (!constants.carries) return {false, ContactStatus::open, constants.D, nan, nan, nan, none, none, none, none};
   const NodeContact contact = contact_of(a);
   const Vector3<double> &lambda = now.multiplier[a], &n = normal[a].n;
   const double area = current_area(a);
