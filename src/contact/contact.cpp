@@ -119,11 +119,11 @@ void Contact::AddRoundOff(double *magnitude) const
   for (const PlateContact &plate : plates) plate.AddRoundOff(magnitude);
 }
 
-double Contact::WallForce(const double *U) const
+Wrench Contact::WallReaction(const double *U) const
 {
-  double force = 0;
-  for (const PlateContact &plate : plates) force += plate.ForceOnTopPlate(U);
-  return force;
+  Wrench wrench;
+  for (const PlateContact &plate : plates) wrench += plate.ReactionOfTopPlate(U);
+  return wrench;
 }
 
 PetscErrorCode Contact::Results(const PlateFrames &frames, const double *U, const double *Udot, ContactResults &results)
@@ -138,8 +138,9 @@ PetscErrorCode Contact::Results(const PlateFrames &frames, const double *U, cons
     results.torque += torque;
     results.surfaces.push_back(std::move(surface));
   }
-  results.wall_force = WallForce(U);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &results.wall_force, 1, MPI_DOUBLE, MPI_SUM, comm));
+  results.wall = WallReaction(U);
+  for (Vector3<double> *part : {&results.wall.force, &results.wall.moment})
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, part->data(), 3, MPI_DOUBLE, MPI_SUM, comm));
   PetscFunctionReturn(0);
 }
 

@@ -11,7 +11,7 @@ namespace tribogel
 struct ContactResults {
   std::vector<SurfaceResults> surfaces; ///< the lower face, then the wall (if it may touch); empty for a single gel
   double force = 0, torque = 0;         ///< that the gels transmit, signed as the plate's reactions [N, N mm]
-  double wall_force = 0;                ///< of the walls on the top plate, all ranks', part of N [N]
+  Wrench wall;                          ///< what the top plate does to a wall, all ranks'
 };
 
 class Contact
@@ -44,8 +44,8 @@ public:
 
   PetscErrorCode Results(const PlateFrames &frames, const double *U, const double *Udot, ContactResults &results);
 
-  /// Force of this rank's wall nodes on the top plate, part of N [N].
-  double WallForce(const double *U) const;
+  /// What the top plate does to this rank's wall nodes.
+  Wrench WallReaction(const double *U) const;
 
   bool between_gels() const { return !gels.empty(); }
   const GelContact &lower_face() const { return gels.front(); }

@@ -117,9 +117,10 @@ PetscErrorCode GelContact::SetUp(MPI_Comm on, const Mesh &both, const Scene &sce
   if (mesh->dim == 2)
     Touch(wall ? 0 : static_cast<int>(slave.facet.size()));
   else
-    model->contact = SolidContact(SolidGeometry(
-        quads_of(slave), quads_of(mesh->master),
-        {model->parameters.order, model->parameters.softer_modulus, model->parameters.carries_multiplier}));
+    model->contact = SolidContact(
+        SolidGeometry(quads_of(slave), quads_of(mesh->master),
+                      {model->parameters.order, model->parameters.softer_modulus, model->parameters.carries_multiplier,
+                       scene.contact_integration == ContactIntegration::segments}));
   const auto nodes = static_cast<int>(slave.node.size());
   first = static_cast<int>(static_cast<long>(nodes) * rank / size);
   last = static_cast<int>(static_cast<long>(nodes) * (rank + 1) / size);
@@ -127,7 +128,10 @@ PetscErrorCode GelContact::SetUp(MPI_Comm on, const Mesh &both, const Scene &sce
 
   ContactState<double> rest;
   const std::vector<double> zero(9 * (slave.node.size() + mesh->master.node.size()), 0.0);
-  Unpack({-scene.initial_gap}, zero, 1, rest);
+  PlateFrames touching;
+  touching.top_travel = -scene.initial_gap;
+  touching.top_axis = scene.misalignment.offset;
+  Unpack(touching, zero, 1, rest);
   pattern = std::visit([&](const auto &operation) { return operation.candidate_pairs(rest, margin); }, model->contact);
   PetscFunctionReturn(0);
 }
@@ -188,6 +192,7 @@ void GelContact::Unpack(const PlateFrames &frames, const std::vector<double> &va
   state.slave.rotation_rate = frames.top_rate;
   state.master.rotation_rate = frames.bottom_rate;
   state.slave.rotation = frames.top_rotation;
+  state.slave_axis = frames.top_axis;
   state.master.rotation = frames.bottom_rotation;
 }
 

@@ -20,22 +20,22 @@ public:
   PetscErrorCode AddPattern(Mat A) const;
   void AddRoundOff(double *magnitude) const;
 
-  /// Axial force of this rank's nodes on the plate above the body, downwards positive on the gel [N].
-  double ForceOnTopPlate(const double *U) const;
+  /// What the plate above the body does to this rank's nodes.
+  Wrench ReactionOfTopPlate(const double *U) const;
 
 private:
   struct WallNode {
-    int node;       ///< index into Mesh::nodes
-    double D, c_N;  ///< as in ContactGeometry
-    double outward; ///< +1: the plate above, -1: the one below
-    double plate;   ///< height of the plate less the travel it shares with the body's frame [mm]
+    int node;      ///< index into Mesh::nodes
+    double D, c_N; ///< as in ContactGeometry
+    bool above;    ///< which plate
+    double gap;    ///< of the undeformed node, while the plates do not move against the body's frame [mm]
   };
 
   PlateNodeBlock Block(const WallNode &wall_node, const PlateFrames &frames, const double *U) const;
 
   const Mesh *mesh = nullptr;
-  int axial = 1;           ///< component of Node::X along the plates' axis
-  bool spans_both = false; ///< one gel between the plates: the upper one moves against the frame of its unknowns
+  Vector3<double> up{0, 0, 1}; ///< the plates' normal
+  bool spans_both = false;     ///< one gel between the plates: the upper one moves against the frame of its unknowns
   std::vector<WallNode> nodes;
   double extent = 0; ///< of the scene, for round-off [mm]
 };

@@ -44,4 +44,8 @@ struct SerialMesh {
   int facet_corners() const { return 1 << (dim - 1); } ///< of a facet
 };
 
+/// Turns the top body about y, by `angle` [rad], about the centre of its plate's face, which then moves along z such
+/// that the body's lowest vertex is as high as before: at +x for an angle > 0.
+void tilt_top(SerialMesh &mesh, double angle);
+
 } // namespace tribogel

@@ -11,8 +11,8 @@ namespace tribogel
 namespace
 {
 
-/// Reactions of the top plate.
-PetscErrorCode PlateReaction(Problem &problem, const double *U, Measurement &measurement)
+/// What the top plate does to its gel through the bonded face; all ranks'.
+PetscErrorCode PlateReaction(Problem &problem, const double *U, Wrench &reaction)
 {
   Vec forces;
   PetscScalar *f;
@@ -23,14 +23,27 @@ PetscErrorCode PlateReaction(Problem &problem, const double *U, Measurement &mea
   const StepWeights frozen{0}; // the internal variables are those at the end of the step
   const BulkFailure failure = problem.bulk->AddTopPlateForces(U, problem.state.history, frozen, f);
   PetscCheck(!failure, PETSC_COMM_SELF, PETSC_ERR_PLIB, "a converged state cannot be evaluated");
-  PlateLoads loads = problem.plate_forces(U, f);
+  reaction = problem.plate_wrench(U, f);
   PetscCall(VecRestoreArray(forces, &f));
   PetscCall(DMRestoreLocalVector(problem.mesh.dm, &forces));
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(problem.mesh.dm)));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, loads.data(), 2, MPI_DOUBLE, MPI_SUM, comm));
-  measurement.normal_force = loads[0];
-  measurement.torque = loads[1];
+  for (Vector3<double> *part : {&reaction.force, &reaction.moment})
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, part->data(), 3, MPI_DOUBLE, MPI_SUM, comm));
   PetscFunctionReturn(0);
+}
+
+/// The plate's reactions, and in the fixed frame what pushes it sideways and bends its axis.
+void read_off(const Problem &problem, const Wrench &reaction, Measurement &m)
+{
+  m.normal_force = -reaction.force[2];
+  m.torque = reaction.moment[2];
+  const Vector3<double> centre(0, 0, problem.plate_height());
+  const Vector3<double> force = -reaction.force, moment = -(reaction.moment - centre.cross(reaction.force));
+  // The frame of a gel that spans both plates does not turn.
+  const double angle = problem.scene.has_top ? problem.phase().rotation(problem.state.time) : 0;
+  const double c = std::cos(angle), s = std::sin(angle);
+  m.transverse_force = {c * force[0] - s * force[1], s * force[0] + c * force[1]};
+  m.bending_moment = {c * moment[0] - s * moment[1], s * moment[0] + c * moment[1]};
 }
 
 double tangential(const NodeResult &node)
@@ -138,11 +151,14 @@ PetscErrorCode Measure(Problem &problem, Measurement &measurement, std::vector<P
   PetscCall(problem.LocalState(U, Udot));
   PetscCall(VecGetArrayRead(U, &u));
   PetscCall(VecGetArrayRead(Udot, &rate));
-  PetscCall(PlateReaction(problem, u, measurement));
+  Wrench reaction;
+  PetscCall(PlateReaction(problem, u, reaction));
+  read_off(problem, reaction, measurement);
   if (problem.contact) {
     ContactResults results;
     PetscCall(problem.contact->Results(problem.frames(problem.state.time, problem.state.step), u, rate, results));
-    measurement.normal_force += results.wall_force;
+    reaction += results.wall;
+    read_off(problem, reaction, measurement);
     if (problem.contact->between_gels()) {
       measurement.contact_force = results.force;
       measurement.contact_torque = results.torque;

@@ -4,6 +4,7 @@
 
 #include "solve/problem.hpp"
 
+#include <array>
 #include <limits>
 
 namespace tribogel
@@ -19,7 +20,10 @@ struct Measurement {
   double mu_apparent = undefined, mu_gong = undefined;          ///< eqs. (3.13), (2.3)
   double mu_mean = undefined;                                   ///< over the patch's nodes, unweighted
   double mu_area_weighted = undefined, mu_pressure_weighted = undefined;
-  double friction_power = 0; ///< that the sliding nodes turn into heat, >= 0 [N mm/s]
+  /// Of the gel on the top plate, in space; the moment's about the point where the plate's face meets its axis.
+  std::array<double, 2> transverse_force{}; ///< along x, y [N]
+  std::array<double, 2> bending_moment{};   ///< about x, y [N mm]
+  double friction_power = 0;                ///< that the sliding nodes turn into heat, >= 0 [N mm/s]
 
   double force_mismatch() const { return normal_force - contact_force; }
   double torque_mismatch() const { return torque - contact_torque; }

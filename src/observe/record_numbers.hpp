@@ -20,6 +20,10 @@ template <class Visit> void each_number(Measurement &m, const Visit &visit)
   visit(m.mu_mean);
   visit(m.mu_area_weighted);
   visit(m.mu_pressure_weighted);
+  for (int i = 0; i < 2; ++i) {
+    visit(m.transverse_force[i]);
+    visit(m.bending_moment[i]);
+  }
   visit(m.friction_power);
 }
 

@@ -18,7 +18,8 @@ constexpr const char *history_header =
     "time_s,phase,approach_mm,rotation_rad,rate_rad_per_s,normal_force_N,torque_Nmm,contact_radius_mm,mu_apparent,"
     "mu_gong,mu_mean,mu_area_weighted,mu_pressure_weighted,newton_iterations,linear_iterations,step_s,contact_force_N,"
     "contact_torque_Nmm,force_mismatch_N,torque_mismatch_Nmm,work_of_plates_Nmm,stored_energy_Nmm,"
-    "viscous_dissipation_Nmm,frictional_dissipation_Nmm";
+    "viscous_dissipation_Nmm,frictional_dissipation_Nmm,transverse_force_x_N,transverse_force_y_N,bending_moment_x_Nmm,"
+    "bending_moment_y_Nmm";
 constexpr const char *profile_header =
     "time_s,phase,surface,reference_r_mm,reference_theta_rad,reference_z_mm,r_mm,theta_rad,z_mm,pressure_MPa,"
     "traction_radial_MPa,traction_circumferential_MPa,sliding_velocity_mm_per_s,mu,status";
@@ -48,21 +49,23 @@ template <class... Cells> std::string comma_separated(const Cells &...cells)
   return line;
 }
 
-/// How far the bottom surface has gone down at the current radius r, between its nodes.
+/// How far the bottom surface has gone down at the current radius r, between its nodes; a surface in space has them in
+/// any order and more than one at a radius.
 double displacement_at(const std::vector<ProfileRow> &profile, double r)
 {
-  const ProfileRow *before = nullptr;
+  const auto down = [](const ProfileRow *row) { return row->reference_z - row->z; };
+  const ProfileRow *inner = nullptr, *outer = nullptr; // the nearest with a smaller radius, and with r or a larger one
   for (const ProfileRow &row : profile) {
     if (row.surface != std::string("bottom")) continue;
-    const double down = row.reference_z - row.z;
     if (row.r >= r) {
-      if (!before) return down;
-      const double s = (r - before->r) / (row.r - before->r);
-      return (1 - s) * (before->reference_z - before->z) + s * down;
-    }
-    before = &row;
+      if (!outer || row.r < outer->r) outer = &row;
+    } else if (!inner || row.r > inner->r)
+      inner = &row;
   }
-  return undefined;
+  if (!outer) return undefined;
+  if (!inner) return down(outer);
+  const double s = (r - inner->r) / (outer->r - inner->r);
+  return (1 - s) * down(inner) + s * down(outer);
 }
 
 } // namespace
@@ -182,7 +185,8 @@ void Recorder::write_row(const HistoryRow &row)
                              m.contact_radius, m.mu_apparent, m.mu_gong, m.mu_mean, m.mu_area_weighted,
                              m.mu_pressure_weighted, row.report.newton_iterations, row.report.linear_iterations,
                              row.step, m.contact_force, m.contact_torque, m.force_mismatch(), m.torque_mismatch(),
-                             e.work, e.stored, e.viscous, e.friction)
+                             e.work, e.stored, e.viscous, e.friction, m.transverse_force[0], m.transverse_force[1],
+                             m.bending_moment[0], m.bending_moment[1])
           << std::endl;
 }
 

@@ -30,6 +30,21 @@ void read_geometry(const OptionReader &reader, Scene &scene)
   }
 }
 
+void read_misalignment(const OptionReader &reader, Scene &scene)
+{
+  const Option &offset = OptionReader::declared("-top_offset"), &tilt = OptionReader::declared("-top_tilt");
+  const std::vector<double> c = reader.reals(offset);
+  const double angle = reader.real("-top_tilt");
+  if (!scene.has_top) return;
+  scene.misalignment = {{c[0], c[1]}, angle};
+  for (const Option *option : {&offset, &tilt})
+    if (scene.model == Model::axisymmetric && scene.misalignment.any() && reader.is_given(option->name))
+      refuse(option->name, reader.text(*option), "allowed: " + option->fallback + " with -model axisymmetric");
+  if (!(std::hypot(c[0], c[1]) < scene.bottom.radius))
+    refuse(offset.name, reader.text(offset),
+           "allowed: within the bottom specimen, here -bottom_radius = " + to_text(scene.bottom.radius));
+}
+
 /// -friction_speed_range, if it is given.
 std::optional<std::array<double, 2>> read_speed_range(const OptionReader &reader)
 {
@@ -138,6 +153,9 @@ void read_schedule_kind(const OptionReader &reader, Scene &scene)
   if (reader.choice("-schedule_kind") == "transient") return;
   scene.schedule_kind = ScheduleKind::steady;
   if (!scene.has_top) return;
+  if (scene.misalignment.any())
+    refuse("-schedule_kind", "steady",
+           "allowed: transient with -top_offset or -top_tilt, where each turn loads the gels anew");
   const bool holds = scene.friction.static_strength(1.0).value > 0;
   for (std::size_t k = 0; k < scene.schedule.size(); ++k)
     if (holds && scene.schedule[k].rate == 0)
@@ -156,7 +174,10 @@ void read_discretisation(const OptionReader &reader, Scene &scene)
   scene.mesh.grading = reader.real("-mesh_grading");
   scene.mesh.refinements = reader.integer("-mesh_refinements");
   scene.phase_end_tolerance = reader.real("-phase_end_tolerance");
-  reader.choice("-contact_integration");
+  const bool at_elements = reader.choice("-contact_integration") == "elements";
+  if (at_elements && scene.model == Model::axisymmetric && scene.has_top)
+    refuse("-contact_integration", "elements", "allowed: segments with -model axisymmetric");
+  scene.contact_integration = at_elements ? ContactIntegration::elements : ContactIntegration::segments;
   const bool second_order = reader.choice("-maxwell_integrator") == "sdirk2";
   const bool steady = scene.schedule_kind == ScheduleKind::steady; // nothing to integrate: one solve a step
   scene.time.rule = second_order && !steady ? TimeRule::sdirk2 : TimeRule::exponential_euler;
@@ -268,6 +289,7 @@ SceneInput scene_from_options(const GivenOptions &given)
   scene.has_top = reader.choice("-specimens") == "both";
   if (reader.choice("-model") == "solid") scene.model = Model::solid;
   read_geometry(reader, scene);
+  read_misalignment(reader, scene);
   SceneInput unused; // a top specimen that is not there raises no warnings
   scene.top.material = read_material(reader, "top", scene.has_top ? input : unused);
   input.options.insert(input.options.end(), unused.options.begin(), unused.options.end());

@@ -14,10 +14,11 @@ PetscErrorCode Problem::SetUp(MPI_Comm comm, const Scene &given)
   return SetUp(comm, given, meridian_blocks(given));
 }
 
-PetscErrorCode Problem::SetUp(MPI_Comm comm, const Scene &given, const SerialMesh &serial)
+PetscErrorCode Problem::SetUp(MPI_Comm comm, const Scene &given, SerialMesh serial)
 {
   PetscFunctionBeginUser;
   scene = given;
+  if (scene.misalignment.tilt != 0) tilt_top(serial, scene.misalignment.tilt);
   PetscCall(events.Register());
   PetscCall(PetscLogEventBegin(events.mesh, 0, 0, 0, 0));
   PetscCall(mesh.Build(comm, scene, serial));
@@ -93,6 +94,7 @@ PetscErrorCode Problem::SetUpFields()
     }
   }
   PetscCall(ISLocalToGlobalMappingRestoreIndices(mapping, &to_global));
+  PetscCall(MeasurePlate());
 
   PetscCall(DMGetLocalVector(mesh.dm, &local));
   PetscCall(VecZeroEntries(local));
@@ -103,6 +105,21 @@ PetscErrorCode Problem::SetUpFields()
   PetscCall(VecZeroEntries(round_off));
   PetscCall(DMLocalToGlobal(mesh.dm, local, ADD_VALUES, round_off));
   PetscCall(DMRestoreLocalVector(mesh.dm, &local));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Problem::MeasurePlate()
+{
+  double lowest_highest[2] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  PetscFunctionBeginUser;
+  for (int n : plate_nodes) {
+    const double z = mesh.nodes[n].X[mesh.dim - 1];
+    lowest_highest[0] = std::min(lowest_highest[0], z);
+    lowest_highest[1] = std::min(lowest_highest[1], -z);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, lowest_highest, 2, MPI_DOUBLE, MPI_MIN,
+                             PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm)))));
+  plate_at_rest = 0.5 * (lowest_highest[0] - lowest_highest[1]); // a tilted face is symmetric about its axis
   PetscFunctionReturn(0);
 }
 
@@ -123,6 +140,7 @@ PlateFrames Problem::frames(double time, double step) const
   frames.bottom_rate = scene.bottom_plate_rate;
   frames.top_rotation = now.rotation(time);
   frames.bottom_rotation = scene.bottom_plate_rate * time;
+  frames.top_axis = scene.misalignment.offset;
   if (step > 0) frames.step = step;
   return frames;
 }
@@ -168,19 +186,24 @@ void Problem::SetBoundary(double time, double *U, double *Udot) const
   }
 }
 
-PlateLoads Problem::plate_forces(const double *U, const double *F) const
+Wrench Problem::plate_wrench(const double *U, const double *F) const
 {
-  PlateLoads loads{};
+  Wrench wrench;
   for (int n : plate_nodes) {
     const Node &node = mesh.nodes[n];
-    const double *f = F + node.displacement, *u = U + node.displacement;
-    loads[0] -= f[2];
-    if (mesh.dim == 2)
-      loads[1] += f[1] * scene.twist_length();
-    else
-      loads[1] += (node.X[0] + u[0]) * f[1] - (node.X[1] + u[1]) * f[0];
+    const Vector3<double> f(F + node.displacement);
+    if (mesh.dim == 2) {
+      wrench.force[2] += f[2];
+      wrench.moment[2] += f[1] * scene.twist_length();
+    } else
+      wrench.add(f, Vector3<double>(node.X.data()) + Vector3<double>(U + node.displacement));
   }
-  return loads;
+  return wrench;
+}
+
+double Problem::plate_height() const
+{
+  return scene.has_top ? plate_at_rest : plate_at_rest - phase().approach(state.time);
 }
 
 PetscErrorCode Problem::LocalState(Vec U, Vec Udot) const
@@ -206,8 +229,9 @@ PetscErrorCode Problem::AddResidual(double time, const double *U, const double *
   PetscCall(PetscLogEventBegin(events.bulk_residual, 0, 0, 0, 0));
   bulk_failure = bulk->AddResidual(U, start(), weights(time), F, sizes);
   PetscCall(PetscLogEventEnd(events.bulk_residual, 0, 0, 0, 0));
-  plate_loads = plate_forces(U, F);
-  if (contact) plate_loads[0] += contact->WallForce(U);
+  Wrench reaction = plate_wrench(U, F);
+  if (contact) reaction += contact->WallReaction(U);
+  plate_loads = {-reaction.force[2], reaction.moment[2]};
   PetscCall(ShareFailure(PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm))), bulk_failure));
   contact_failure.clear();
   if (steady()) Udot = nullptr;

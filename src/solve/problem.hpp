@@ -67,7 +67,7 @@ public:
 
   /// The same with bodies of another outline than the scene's cylinders, whose radii and heights then only scale (the
   /// twist's length, coefficients of friction).
-  PetscErrorCode SetUp(MPI_Comm comm, const Scene &scene, const SerialMesh &serial);
+  PetscErrorCode SetUp(MPI_Comm comm, const Scene &scene, SerialMesh serial);
   PetscErrorCode SetUp(MPI_Comm comm, const Scene &given, const std::vector<MeridianBlock> &blocks)
   {
     return SetUp(comm, given, given.model == Model::solid ? revolved_mesh(blocks) : serial_mesh(blocks));
@@ -93,9 +93,11 @@ public:
   /// Prescribed displacements and rates at `time` (Udot may be null) in local arrays.
   void SetBoundary(double time, double *U, double *Udot) const;
 
-  /// Axial force and torque that this rank's part of the nodal forces `F` of the gel means for the top plate, about its
-  /// axis and signed as its reactions [N, N mm].
-  PlateLoads plate_forces(const double *U, const double *F) const;
+  /// What the top plate does to the gel bonded to it, by this rank's part of its nodal forces `F`.
+  Wrench plate_wrench(const double *U, const double *F) const;
+
+  /// Where the top plate's face meets its axis, in the frame of its gel's unknowns: height above its origin [mm].
+  double plate_height() const;
 
   const Phase &phase() const { return scene.schedule[state.phase]; }
   PlateFrames frames(double time, double step) const; ///< at `time`, for a step of that length
@@ -152,6 +154,7 @@ private:
   PetscErrorCode SetRates(double step, Vec U);
   PetscErrorCode LocateWorst(const double *f);
   PetscErrorCode SetUpFields();
+  PetscErrorCode MeasurePlate();
   PetscErrorCode SetUpTs();
   PetscErrorCode SetUpLinearSolver(KSP ksp);
   PetscErrorCode RunPhase(int k);
@@ -169,6 +172,7 @@ private:
   PetscReal given_first_step = 0;                  ///< `-ts_dt` [s], 0 if not given
   PetscInt rejected_before = 0, failed_before = 0; ///< counts that TS does not know of
   VecHandle before;                                ///< U at the start of the step
+  double plate_at_rest = 0;                        ///< plate_height() before it moves against the gel's frame [mm]
   std::vector<int> plate_nodes;                    ///< on the top plate, indices into mesh.nodes
   PlateLoads plate_loads{};                        ///< on this rank's cells in the last evaluation of the residual
   friend PetscErrorCode PreStep(TS);

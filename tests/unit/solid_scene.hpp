@@ -39,8 +39,8 @@ struct SolidScene {
   SolidGeometry geometry;
   ContactState<double> state;
 
-  SolidScene(QuadReference slave, QuadReference master, int order)
-      : geometry(std::move(slave), std::move(master), {order, 0.7, {}})
+  SolidScene(QuadReference slave, QuadReference master, int order, bool exact_cells = true)
+      : geometry(std::move(slave), std::move(master), {order, 0.7, {}, exact_cells})
   {
     state.slave.u.assign(geometry.slave.X.size(), Vector3<double>::Zero());
     state.slave.rate = state.multiplier = state.slave.u;
@@ -78,7 +78,7 @@ struct SolidScene {
 
 /// Curved, distorted, non-matching surfaces in a general state, with the nodal status that `load` suggests: positive
 /// multipliers press.
-inline SolidScene general_solid_scene(int order, double load, unsigned seed)
+inline SolidScene general_solid_scene(int order, double load, unsigned seed, bool exact_cells = true)
 {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -91,7 +91,7 @@ inline SolidScene general_solid_scene(int order, double load, unsigned seed)
                              [&](double x, double y) {
                                return Vector3<double>(x - 0.1 * y, y + 0.03 * x * x, bump(x, y) - 0.01 * y * y);
                              }),
-                   order);
+                   order, exact_cells);
   ContactState<double> &state = scene.state;
   const auto vary = [&](std::vector<Vector3<double>> &field, double by) {
     for (auto &v : field)

@@ -21,40 +21,66 @@ using testing::Law;
 using testing::moving;
 using testing::whole_residual;
 
+const Vector3<double> up(0, 0, 1), down(0, 0, -1);
+
 TEST(PlateContact, AnOpenNodeCarriesNothingAndAClosedOneIsHeldAtThePlate)
 {
   const Vector3<double> lambda(0.3, -0.2, -1.7); // pressed down by a plate above
-  const PlateNodeBlock closed = plate_node(4.41, 4.4, 1, lambda, 0.7, 5);
+  const PlateNodeBlock closed = plate_node(-0.01, up, lambda, 0.7, 5);
   EXPECT_NE(closed.status, ContactStatus::open);
-  EXPECT_DOUBLE_EQ(closed.force, 0.7 * 1.7);               // internal minus external
+  EXPECT_DOUBLE_EQ(closed.force[2], 0.7 * 1.7); // internal minus external
+  EXPECT_EQ(closed.force.head<2>().norm(), 0);
   EXPECT_NEAR(closed.condition[2], 0.7 * 5 * 0.01, 1e-13); // c_N times the penetration
   EXPECT_DOUBLE_EQ(closed.condition[0], 0.7 * 0.3);        // no friction
   EXPECT_DOUBLE_EQ(closed.condition[1], -0.7 * 0.2);
-  const PlateNodeBlock open = plate_node(3.9, 4.4, 1, lambda, 0.7, 5); // c_N g = 2.5 > 1.7
+  const PlateNodeBlock open = plate_node(0.5, up, lambda, 0.7, 5); // c_N g = 2.5 > 1.7
   EXPECT_EQ(open.status, ContactStatus::open);
   EXPECT_DOUBLE_EQ(open.condition[2], -0.7 * 1.7);
-  const PlateNodeBlock below = plate_node(-4.01, -4, -1, {0, 0, 1.7}, 0.7, 5);
+  const PlateNodeBlock below = plate_node(-0.01, down, {0, 0, 1.7}, 0.7, 5);
   EXPECT_NE(below.status, ContactStatus::open);
   EXPECT_NEAR(below.condition[2], -0.7 * 5 * 0.01, 1e-13);
+}
+
+TEST(PlateContact, AnInclinedPlateIsTheLevelOneTurned)
+{
+  const double angle = 0.3;
+  Matrix3<double> Q = Matrix3<double>::Identity();
+  Q(0, 0) = Q(2, 2) = std::cos(angle);
+  Q(0, 2) = std::sin(angle);
+  Q(2, 0) = -Q(0, 2);
+  const Vector3<double> lambda(0.3, -0.2, -1.7);
+  for (double gap : {-0.01, 0.5}) {
+    const PlateNodeBlock level = plate_node(gap, up, lambda, 0.7, 5),
+                         turned = plate_node(gap, Q * up, Q * lambda, 0.7, 5);
+    EXPECT_EQ(turned.status, level.status);
+    EXPECT_LE((turned.force - Q * level.force).norm(), 1e-15);
+    EXPECT_LE((turned.condition - Q * level.condition).norm(), 1e-15);
+    EXPECT_LE((turned.d_gap - Q * level.d_gap * Q.transpose()).norm(), 1e-14);
+    EXPECT_LE((turned.d_force - Q * level.d_force * Q.transpose()).norm(), 1e-14);
+    EXPECT_LE((turned.d_traction - Q * level.d_traction * Q.transpose()).norm(), 1e-14);
+  }
 }
 
 TEST(PlateContact, DerivativesAreThoseOfTheRows)
 {
   constexpr double h = 1e-6;
-  for (double outward : {1.0, -1.0})
-    for (double z : {outward * 4.41, outward * 3.9}) {
-      const Vector3<double> lambda(0.3, -0.2, -1.7 * outward);
-      const auto at = [&](double dz, const Vector3<double> &dl) {
-        return plate_node(z + dz, 4.4 * outward, outward, lambda + dl, 0.7, 5);
+  for (const Vector3<double> &outward : {up, down, Vector3<double>(0.6, 0, 0.8)})
+    for (double gap : {-0.01, 0.5}) {
+      const Vector3<double> lambda = -1.7 * outward + Vector3<double>(0.3, -0.2, 0), none = Vector3<double>::Zero();
+      const auto at = [&](const Vector3<double> &du, const Vector3<double> &dl) {
+        return plate_node(gap - outward.dot(du), outward, lambda + dl, 0.7, 5);
       };
-      const PlateNodeBlock block = at(0, Vector3<double>::Zero());
-      const Vector3<double> slope =
-          (at(h, Vector3<double>::Zero()).condition - at(-h, Vector3<double>::Zero()).condition) / (2 * h);
-      EXPECT_LE((slope - block.d_gap).norm(), 1e-8);
+      const PlateNodeBlock block = at(none, none);
       for (int j = 0; j < 3; ++j) {
         const Vector3<double> d = h * Vector3<double>::Unit(j);
-        EXPECT_LE(((at(0, d).condition - at(0, -d).condition) / (2 * h) - block.d_traction.col(j)).norm(), 1e-8);
-        EXPECT_NEAR((at(0, d).force - at(0, -d).force) / (2 * h), j == 2 ? block.d_force : 0, 1e-8);
+        const auto slope = [&](auto member, bool of_gap) {
+          const PlateNodeBlock ahead = of_gap ? at(d, none) : at(none, d),
+                               behind = of_gap ? at(-d, none) : at(none, -d);
+          return Vector3<double>((ahead.*member - behind.*member) / (2 * h));
+        };
+        EXPECT_LE((slope(&PlateNodeBlock::condition, true) - block.d_gap.col(j)).norm(), 1e-8);
+        EXPECT_LE((slope(&PlateNodeBlock::condition, false) - block.d_traction.col(j)).norm(), 1e-8);
+        EXPECT_LE((slope(&PlateNodeBlock::force, false) - block.d_force.col(j)).norm(), 1e-8);
       }
     }
 }

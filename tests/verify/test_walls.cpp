@@ -55,7 +55,7 @@ void inspect(Problem &problem, Outcome &outcome)
   if (problem.contact) {
     ContactResults results;
     ASSERT_EQ(problem.contact->Results(problem.frames(problem.state.time, 1), u, rate, results), 0);
-    outcome.wall_force = results.wall_force;
+    outcome.wall_force = -results.wall.force[2];
   }
   ASSERT_EQ(VecRestoreArrayRead(Udot, &rate), 0);
   ASSERT_EQ(VecRestoreArrayRead(U, &u), 0);

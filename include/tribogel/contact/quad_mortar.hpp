@@ -16,10 +16,8 @@
 /// Derivatives are those of this very computation: dM/d(x_a, n_a, y_b).
 #pragma once
 
-#include "tribogel/contact/quad_facet.hpp"
-#include "tribogel/contact/report.hpp"
+#include "tribogel/contact/quad_point.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace tribogel
@@ -32,26 +30,6 @@ template <int order> inline constexpr int outline_chords = order;
 /// The master's outline is first cut to the slave facet's, so many times as wide, in the coordinates of QuadFrame:
 /// points far from a distorted facet have no projection.
 inline constexpr double outline_margin = 1.1;
-
-/// How far a master facet is extended beyond a side that is the surface's edge, in eta (the facet has length 2).
-inline constexpr double edge_extension = 1;
-
-template <int order> struct QuadPair {
-  QuadPoints<order> x, n, y;     ///< slave positions and normals, master positions
-  std::array<bool, 4> on_edge{}; ///< sides of the master facet that are extended
-};
-
-template <int order> struct QuadPairMortar {
-  static constexpr int nodes = tensor_nodes<2, order>;
-  using Matrix = Eigen::Matrix<double, nodes, nodes, Eigen::RowMajor>;
-  MortarStatus status = MortarStatus::ok;
-  double covered = 0;        ///< area in xi: 4 when summed over the master surface
-  double overhang = 0;       ///< reference area beyond the master's edge [mm^2]
-  Matrix M = Matrix::Zero(); ///< [slave node][master node] [mm^2]
-  /// dM, row a nodes + b; columns: slave positions, normals, master positions, three components each. Empty unless
-  /// asked for.
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> dM;
-};
 
 /// Gauss points on a triangle as barycentric weights (product rule on the collapsed square); weights add up to 1. Exact
 /// to degree 2 n - 2.
@@ -82,17 +60,6 @@ namespace quad_mortar
 /// with rules of degree 4, in 184 of 670 solves; with these no solve fails.
 template <int order> inline constexpr int rule_points = order + 5;
 
-// Newton's method for x(xi) + g n(xi) = y(eta).
-constexpr double projection_tolerance = 1e-9; ///< of the last step; what is left is its square
-constexpr int most_iterations = 30;
-constexpr double longest_step = 0.5; ///< in xi and eta, where half a facet has length 1
-
-/// Newton's step, shortened where it leaves the neighbourhood in which the facet is nearly plane.
-inline Vector3<double> limited(const Vector3<double> &step)
-{
-  return step * std::min(1.0, longest_step / std::max(std::abs(step[0]), std::abs(step[1])));
-}
-
 /// A cut ends on its line, to so much of the square.
 constexpr double cut_round_off = 1e-14;
 
@@ -103,7 +70,7 @@ public:
   using Result = QuadPairMortar<order>;
 
   Kernel(const QuadMeasure<order> &slave_measure, const QuadPair<order> &facet_pair, bool derivatives)
-      : measure(slave_measure), pair(facet_pair), with_derivatives(derivatives)
+      : measure(slave_measure), pair(facet_pair), point(slave_measure, facet_pair), with_derivatives(derivatives)
   {
   }
 
@@ -132,16 +99,16 @@ private:
   };
   using Place = Corner<3>;
   using Vertex = Corner<2>;
-  using ByVertex = Eigen::Matrix<double, nodes * nodes, 2, Eigen::RowMajor>;
+  using ByVertex = typename Point<order>::ByXi;
   using Row = Eigen::Matrix<double, 1, inputs>;
 
   const QuadMeasure<order> &measure;
   const QuadPair<order> &pair;
+  Point<order> point;
   bool with_derivatives;
   std::vector<Place> places;
   std::vector<Vertex> polygon;
   std::vector<ByVertex> by_vertex; ///< dM / d xi of each vertex
-  std::array<double, 2> last_eta{};
   Result out;
 
   /// Whether the master's outline meets the slave facet's square, seen from the front.
@@ -287,38 +254,6 @@ private:
     points = std::move(left);
   }
 
-  /// The master's point that the slave's normal line at xi meets.
-  struct Meeting {
-    QuadShape<order> shape;            ///< of the master
-    double g = 0;                      ///< along the normal [mm]
-    Eigen::Matrix<double, 2, 3> slope; ///< d eta / d x [1/mm]
-    bool found = false;
-  };
-  Meeting meet(const Vector3<double> &point, const Vector3<double> &normal)
-  {
-    Meeting at;
-    std::array<double, 2> eta = last_eta;
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
-      at.shape = quad_shape<order>(eta);
-      Matrix3<double> A;
-      for (int j = 0; j < 2; ++j) A.col(j) = tangent(at.shape.dN, pair.y, j);
-      A.col(2) = -normal;
-      const Matrix3<double> inverse = A.inverse();
-      const Vector3<double> step = limited(inverse * (point + at.g * normal - interpolate(at.shape.N, pair.y)));
-      if (!step.allFinite()) return at;
-      eta[0] += step[0];
-      eta[1] += step[1];
-      at.g += step[2];
-      if (std::abs(step[0]) > projection_tolerance || std::abs(step[1]) > projection_tolerance) continue;
-      at.shape = quad_shape<order>(eta);
-      at.slope = inverse.template topRows<2>();
-      at.found = true;
-      last_eta = eta;
-      return at;
-    }
-    return at;
-  }
-
   void add_triangle(const std::array<std::size_t, 3> &corner)
   {
     static const auto rule = triangle_rule<rule_points<order>>();
@@ -342,62 +277,20 @@ private:
   void add_point(const std::array<std::size_t, 3> &corner, const std::array<double, 3> &share, double rule_weight,
                  double area, typename Result::Matrix &mean)
   {
-    Vector2<double> at = Vector2<double>::Zero();
-    for (int k = 0; k < 3; ++k) at += share[k] * polygon[corner[k]].at;
-    const std::array<double, 2> xi{at[0], at[1]};
-    const auto shape = quad_shape<order>(xi);
-    const Vector3<double> point = interpolate(shape.N, pair.x), normal = interpolate(shape.N, pair.n);
-    const Meeting master = meet(point, normal);
-    if (!master.found) {
+    Vector2<double> xi = Vector2<double>::Zero();
+    for (int k = 0; k < 3; ++k) xi += share[k] * polygon[corner[k]].at;
+    const auto meeting = point.meet({xi[0], xi[1]});
+    if (!meeting.found) {
       out.status = MortarStatus::no_projection;
       return;
     }
-    const auto J = measure.weight(xi);
-    const auto psi = measure.basis(shape.N);
-    for (int a = 0; a < nodes; ++a)
-      for (int b = 0; b < nodes; ++b) mean(a, b) += rule_weight * J.value * psi[a] * master.shape.N[b];
-    if (is_beyond_edge(last_eta)) out.overhang += rule_weight * area * J.value;
-    if (with_derivatives) add_point_slope(corner, share, rule_weight * area, shape, psi, J, master);
-  }
-
-  bool is_beyond_edge(const std::array<double, 2> &eta) const
-  {
-    return (pair.on_edge[0] && eta[0] < -1) || (pair.on_edge[1] && eta[0] > 1) || (pair.on_edge[2] && eta[1] < -1) ||
-           (pair.on_edge[3] && eta[1] > 1);
-  }
-
-  /// With W = weight J psi_a: through eta of the data, W dN_b/deta deta/dx (N_c dx_c + g N_c dn_c - N_c(eta) dy_c);
-  /// through xi, which moves with the triangle's corners.
-  void add_point_slope(const std::array<std::size_t, 3> &corner, const std::array<double, 3> &share, double weight,
-                       const QuadShape<order> &shape, const std::array<double, nodes> &psi,
-                       const typename QuadMeasure<order>::Weight &J, const Meeting &master)
-  {
-    Vector3<double> along[2]; // d (x + g n) / d xi
-    for (int j = 0; j < 2; ++j) along[j] = tangent(shape.dN, pair.x, j) + master.g * tangent(shape.dN, pair.n, j);
-    std::array<Vector3<double>, nodes> dN; // of the master, by the position of the meeting point
-    for (int b = 0; b < nodes; ++b)
-      dN[b] = (master.shape.dN[b][0] * master.slope.row(0) + master.shape.dN[b][1] * master.slope.row(1)).transpose();
-    for (int a = 0; a < nodes; ++a) {
-      double d_psi[2] = {0, 0};
-      for (int c = 0; c < nodes; ++c)
-        for (int j = 0; j < 2; ++j) d_psi[j] += measure.basis.A(a, c) * shape.dN[c][j];
-      const double W = weight * J.value * psi[a];
-      for (int b = 0; b < nodes; ++b) {
-        const Vector3<double> by_x = W * dN[b];
-        double *row = out.dM.row(a * nodes + b).data();
-        for (int c = 0; c < nodes; ++c)
-          for (int i = 0; i < 3; ++i) {
-            const double d = shape.N[c] * by_x[i];
-            row[3 * c + i] += d;
-            row[3 * (nodes + c) + i] += master.g * d;
-            row[3 * (2 * nodes + c) + i] -= master.shape.N[c] * by_x[i];
-          }
-        Vector2<double> by_xi;
-        for (int j = 0; j < 2; ++j)
-          by_xi[j] = weight * (J.slope[j] * psi[a] + J.value * d_psi[j]) * master.shape.N[b] + by_x.dot(along[j]);
-        for (int k = 0; k < 3; ++k) by_vertex[corner[k]].row(a * nodes + b) += share[k] * by_xi.transpose();
-      }
-    }
+    double beyond = 0;
+    point.add(meeting, rule_weight, mean, beyond);
+    out.overhang += area * beyond;
+    if (!with_derivatives) return;
+    point.add_slope(meeting, rule_weight * area, out.dM);
+    const ByVertex slope = rule_weight * area * point.slope_along(meeting); // the point moves with the triangle
+    for (int k = 0; k < 3; ++k) by_vertex[corner[k]] += share[k] * slope;
   }
 };
 

@@ -18,6 +18,7 @@
 #pragma once
 
 #include "tribogel/contact/condition_slope.hpp"
+#include "tribogel/contact/quad_elements.hpp"
 #include "tribogel/contact/quad_mortar.hpp"
 #include "tribogel/contact/quad_normals.hpp"
 #include "tribogel/contact/quad_search.hpp"
@@ -220,15 +221,25 @@ void SolidContact::integrate(int f, std::span<const std::pair<int, int>> pairs, 
   for (std::size_t b = 0; b < pair.n.size(); ++b) pair.n[b] = normal[geometry.slave_surface.facets[f][b]].n;
   MortarStatus status = MortarStatus::ok;
   double covered = 0;
-  for (const auto &[slave, master] : pairs) {
-    pair.y = geometry.master_surface.on_facet<order>(master, placed.y);
-    pair.on_edge = geometry.master_surface.on_edge[master];
-    auto part = quad_pair_mortar<order>(measure, pair, derivatives);
+  const auto keep = [&](int master, QuadPairMortar<order> &&part) {
     if (status == MortarStatus::ok) status = part.status;
-    if (part.covered == 0) continue;
+    if (part.covered == 0) return;
     covered += part.covered;
     overhang += part.overhang;
     facets[f].push_back({master, part.M, std::move(part.dM)});
+  };
+  std::vector<QuadPair<order>> all;
+  for (const auto &[slave, master] : pairs) {
+    pair.y = geometry.master_surface.on_facet<order>(master, placed.y);
+    pair.on_edge = geometry.master_surface.on_edge[master];
+    if (geometry.exact_cells)
+      keep(master, quad_pair_mortar<order>(measure, pair, derivatives));
+    else
+      all.push_back(pair);
+  }
+  if (!geometry.exact_cells) {
+    auto parts = quad_element_mortar<order>(measure, all, derivatives);
+    for (std::size_t k = 0; k < pairs.size(); ++k) keep(pairs[k].second, std::move(parts[k]));
   }
   if (status == MortarStatus::ok && !(std::abs(covered - 4) <= 4 * coverage_tolerance))
     status = MortarStatus::uncovered;

@@ -16,6 +16,7 @@ struct SolidParameters {
   int order = 1;                             ///< of the facets of both surfaces, 1 or 2
   double softer_modulus = 1;                 ///< shear modulus of the softer body, for the scale c_N [MPa]
   std::vector<bool> carries_multiplier = {}; ///< of each slave node, false where u is prescribed; empty: all true
+  bool exact_cells = true;                   ///< false: mortar integrals at the slave facets' own Gauss points
 };
 
 struct SolidGeometry {
@@ -33,13 +34,15 @@ struct SolidGeometry {
   QuadSurface slave_surface, master_surface;
   Measures measures; ///< of the slave facets
   std::vector<Node> nodes;
-  double slave_area = 0; ///< [mm^2]
+  double slave_area = 0;   ///< [mm^2]
+  bool exact_cells = true; ///< as in SolidParameters
 
   SolidGeometry() = default;
   SolidGeometry(QuadReference slave_face, QuadReference master_face, const SolidParameters &parameters)
       : slave(std::move(slave_face)), master(std::move(master_face)),
         slave_surface(slave.facets, parameters.order, static_cast<int>(slave.X.size())),
-        master_surface(master.facets, parameters.order, static_cast<int>(master.X.size())), nodes(slave.X.size())
+        master_surface(master.facets, parameters.order, static_cast<int>(master.X.size())), nodes(slave.X.size()),
+        exact_cells(parameters.exact_cells)
   {
     if (parameters.order == 1)
       measure_facets<1>(parameters);

@@ -21,6 +21,15 @@ struct Specimen {
   Viscoelastic<double> material;
 };
 
+/// How the top plate stands above the bottom one (solid model only).
+struct Misalignment {
+  std::array<double, 2>
+      offset{};    ///< of the top plate's axis, about which it turns with its gel, from the bottom's [mm]
+  double tilt = 0; ///< of the top plate's face, with its gel, against its axis: about y, before the plate turns [rad]
+
+  bool any() const { return offset[0] != 0 || offset[1] != 0 || tilt != 0; }
+};
+
 /// How a specimen's end is held by its plate. Glued is the rheometer; lubricated (free to slide radially, still turned
 /// and moved by the plate) makes uniform states exact and is used by the tests.
 enum class PlateBond { glued, lubricated };
@@ -47,6 +56,12 @@ struct MeshParameters {
   double grading = 30;            ///< largest over smallest edge, >= 1
   int refinements = 0;            ///< how often all edges of that mesh are halved
   int bottom_elements_radial = 0; ///< over the same length on the bottom body; 0: as many
+};
+
+/// How the mortar integrals of the contact are taken (the half plane knows the first only).
+enum class ContactIntegration {
+  segments, ///< over the exact cells in which facets overlap
+  elements  ///< at Gauss points of the slave facets
 };
 
 /// What the phases are: motions in time, or one relaxed state for each phase's end, whatever came before.
@@ -79,9 +94,11 @@ struct Scene {
   bool has_top = true; ///< false: `-specimens bottom`, one gel bonded to both plates
   Specimen top, bottom;
   PlateBond plate_bond = PlateBond::glued;
-  double initial_gap = 0; ///< between the gels before contact [mm]
+  double initial_gap = 0; ///< between the gels before contact, to the lowest point of a tilted one [mm]
+  Misalignment misalignment;
   /// The side walls may touch the plates, and the top gel's wall may roll onto the bottom gel; else they meet nothing.
   bool plate_contact = true;
+  ContactIntegration contact_integration = ContactIntegration::segments;
   PolynomialFriction<double> friction;
   std::optional<std::array<double, 2>> friction_speeds; ///< for which the law was found, from and to [mm/s]
   Schedule schedule;

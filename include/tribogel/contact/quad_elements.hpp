@@ -1,0 +1,57 @@
+/// Mortar integrals of a slave facet at its own Gauss points, each projected to whichever master facet it hits: cheap,
+/// and not exact where a facet faces several, since the integrand has kinks there.
+///
+///     M_ab = sum_q w_q psi_a(xi_q) N_b(eta(xi_q)) J(xi_q)
+///
+/// sum_b M_ab = D_a holds as for exact cells, so forces balance to round-off; uniform pressure is passed on with an
+/// error (THEORY, section 3.7).
+#pragma once
+
+#include "tribogel/contact/quad_point.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace tribogel
+{
+
+/// Gauss points in each direction of a slave facet.
+template <int order> inline constexpr int element_points = order + 3;
+
+/// One result for each of `pairs`, which hold the same slave data; a point that hits none makes the facet uncovered
+/// (sum of `covered` < 4).
+template <int order>
+std::vector<QuadPairMortar<order>> quad_element_mortar(const QuadMeasure<order> &slave,
+                                                       const std::vector<QuadPair<order>> &pairs, bool derivatives)
+{
+  constexpr int points = element_points<order>, nodes = tensor_nodes<2, order>;
+  static const auto rule = gauss_rule<points>();
+  std::vector<QuadPairMortar<order>> results(pairs.size());
+  std::vector<quad_mortar::Point<order>> at;
+  for (const QuadPair<order> &pair : pairs) at.emplace_back(slave, pair);
+  for (int q = 0; q < points * points; ++q) {
+    const double weight = rule.weight[q % points] * rule.weight[q / points];
+    typename quad_mortar::Point<order>::Meeting hit;
+    double nearest = edge_extension; // beyond the facet, in eta; less than 0 inside
+    std::size_t which = pairs.size();
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const auto meeting = at[k].meet({rule.point[q % points], rule.point[q / points]});
+      if (!meeting.found || !meeting.from_front) continue;
+      const double beyond = std::max(std::abs(meeting.eta[0]), std::abs(meeting.eta[1])) - 1;
+      if (beyond > nearest) continue;
+      nearest = beyond;
+      which = k;
+      hit = meeting;
+    }
+    if (which == pairs.size()) continue;
+    QuadPairMortar<order> &result = results[which];
+    result.covered += weight;
+    at[which].add(hit, weight, result.M, result.overhang);
+    if (!derivatives) continue;
+    if (result.dM.size() == 0) result.dM.setZero(nodes * nodes, 9 * nodes);
+    at[which].add_slope(hit, weight, result.dM);
+  }
+  return results;
+}
+
+} // namespace tribogel
