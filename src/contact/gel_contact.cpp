@@ -101,6 +101,10 @@ PetscErrorCode GelContact::SetUp(MPI_Comm on, const Mesh &both, const Scene &sce
 {
   PetscFunctionBeginUser;
   comm = on;
+  PetscClassId id;
+  PetscCall(PetscClassIdRegister("tribogel contact", &id));
+  PetscCall(PetscLogEventRegister("GelContactSearch", id, &search_event));
+  PetscCall(PetscLogEventRegister("GelContactMortar", id, &mortar_event));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCallMPI(MPI_Comm_size(comm, &size));
   mesh = &both;
@@ -221,11 +225,14 @@ PetscErrorCode GelContact::Gather(const PlateFrames &frames, const double *U, co
 PetscErrorCode GelContact::Evaluate(const ContactState<double> &state, bool derivatives, std::string &failure)
 {
   PetscFunctionBeginUser;
+  PetscCall(PetscLogEventBegin(search_event, 0, 0, 0, 0));
+  const auto pairs =
+      std::visit([&](const auto &operation) { return operation.candidate_pairs(state, 0); }, model->contact);
+  PetscCall(PetscLogEventEnd(search_event, 0, 0, 0, 0));
+  PetscCall(PetscLogEventBegin(mortar_event, 0, 0, 0, 0));
   const MortarReport report = std::visit(
-      [&](auto &operation) {
-        return operation.update(state, operation.candidate_pairs(state, 0), derivatives, first, last);
-      },
-      model->contact);
+      [&](auto &operation) { return operation.update(state, pairs, derivatives, first, last); }, model->contact);
+  PetscCall(PetscLogEventEnd(mortar_event, 0, 0, 0, 0));
   struct {
     int status, facet;
   } worst{static_cast<int>(report.status), report.facet};

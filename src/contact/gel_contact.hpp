@@ -100,6 +100,7 @@ private:
   std::unique_ptr<ContactModel> model;
   std::vector<std::pair<int, int>> pattern; ///< pairs of facets that the matrix has room for
   double margin = 0;                        ///< sliding that the pattern allows for [mm]
+  PetscLogEvent search_event = 0, mortar_event = 0;
 };
 
 } // namespace tribogel

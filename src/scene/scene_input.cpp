@@ -153,7 +153,7 @@ void read_schedule_kind(const OptionReader &reader, Scene &scene)
   if (reader.choice("-schedule_kind") == "transient") return;
   scene.schedule_kind = ScheduleKind::steady;
   if (!scene.has_top) return;
-  if (scene.misalignment.any())
+  if (scene.loads_turn())
     refuse("-schedule_kind", "steady",
            "allowed: transient with -top_offset or -top_tilt, where each turn loads the gels anew");
   const bool holds = scene.friction.static_strength(1.0).value > 0;
@@ -173,7 +173,13 @@ void read_discretisation(const OptionReader &reader, Scene &scene)
   scene.mesh.bottom_elements_radial = reader.integer("-bottom_elements_radial");
   scene.mesh.grading = reader.real("-mesh_grading");
   scene.mesh.refinements = reader.integer("-mesh_refinements");
+  for (const char *name : {"-elements_radial", "-bottom_elements_radial"}) // one cell would fill the whole circle
+    if (scene.model == Model::solid && scene.has_top && reader.integer(name) == 1 && scene.mesh.refinements == 0)
+      refuse(name, "1", "allowed: at least 2 with -model solid, whose circles need a ring of cells");
   scene.phase_end_tolerance = reader.real("-phase_end_tolerance");
+  if (scene.loads_turn() && scene.phase_end_tolerance > 0)
+    refuse("-phase_end_tolerance", to_text(scene.phase_end_tolerance),
+           "allowed: 0 with -top_offset or -top_tilt, where a phase cannot end in one long step");
   const bool at_elements = reader.choice("-contact_integration") == "elements";
   if (at_elements && scene.model == Model::axisymmetric && scene.has_top)
     refuse("-contact_integration", "elements", "allowed: segments with -model axisymmetric");

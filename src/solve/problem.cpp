@@ -40,7 +40,10 @@ PetscErrorCode Problem::SetFromOptions()
 {
   PetscBool given, agrees;
   PetscFunctionBeginUser;
+  TSAdapt adapt;
   PetscCall(TSSetFromOptions(ts));
+  PetscCall(TSGetAdapt(ts, &adapt));
+  PetscCall(TSAdaptGetStepLimits(adapt, nullptr, &given_longest_step));
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<TS>(ts)));
   const char *type = scene.time.rule == TimeRule::sdirk2 ? two_stage_ts : TSBEULER;
   PetscCall(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(static_cast<TS>(ts)), type, &agrees));

@@ -157,6 +157,7 @@ private:
   PetscErrorCode MeasurePlate();
   PetscErrorCode SetUpTs();
   PetscErrorCode SetUpLinearSolver(KSP ksp);
+  PetscReal LongestStep() const; ///< of the phase [s]
   PetscErrorCode RunPhase(int k);
   PetscErrorCode Notify(const std::string &text);
   PetscErrorCode CountFailures();
@@ -170,6 +171,7 @@ private:
 
   std::vector<Observer *> watching;
   PetscReal given_first_step = 0;                  ///< `-ts_dt` [s], 0 if not given
+  PetscReal given_longest_step = 0;                ///< `-ts_adapt_dt_max` [s]
   PetscInt rejected_before = 0, failed_before = 0; ///< counts that TS does not know of
   VecHandle before;                                ///< U at the start of the step
   double plate_at_rest = 0;                        ///< plate_height() before it moves against the gel's frame [mm]

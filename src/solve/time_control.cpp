@@ -263,6 +263,14 @@ PetscErrorCode Problem::FirstStep(PetscReal &step, PetscReal &unresolved) const
   PetscFunctionReturn(0);
 }
 
+/// Loads that turn through the gels come back after a revolution: a step of much of one would not see that they change.
+PetscReal Problem::LongestStep() const
+{
+  constexpr double most_of_a_turn = 0.5; // [rad]
+  const double rate = std::abs(phase().rate - scene.bottom_plate_rate);
+  return scene.loads_turn() && rate > 0 ? std::min(most_of_a_turn / rate, given_longest_step) : given_longest_step;
+}
+
 PetscErrorCode Problem::RunPhase(int k)
 {
   TSAdapt adapt;
@@ -273,10 +281,10 @@ PetscErrorCode Problem::RunPhase(int k)
   if (!goes_on) state.steps_in_phase = 0;
   PetscCall(TSGetAdapt(ts, &adapt));
   PetscCall(FirstStep(step, unresolved));
-  PetscCall(TSAdaptSetStepLimits(adapt, smallest_of_first * step, PETSC_DEFAULT));
+  PetscCall(TSAdaptSetStepLimits(adapt, smallest_of_first * step, LongestStep()));
   PetscCall(TSSetTime(ts, goes_on ? state.time : phase().start_time));
   PetscCall(TSSetMaxTime(ts, phase().end_time));
-  PetscCall(TSSetTimeStep(ts, goes_on ? state.next_step : step));
+  PetscCall(TSSetTimeStep(ts, goes_on ? state.next_step : std::min(step, LongestStep())));
   PetscCall(TSRestartStep(ts));
   PetscCall(TSSolve(ts, state.U));
   PetscFunctionReturn(0);

@@ -179,7 +179,8 @@ private:
   void emit_node(int a, const NodeContact &contact, const Eigen::Matrix<double, 3, 10> &slope, const Emit &emit) const;
   template <class Emit>
   void emit_facet(int f, const std::vector<Eigen::Matrix<double, 3, 10>> &slope, const Emit &emit) const;
-  std::vector<ContactUnknown> neighbourhood(int f) const;
+  struct FacetUnknowns;
+  FacetUnknowns unknowns_of(int f, int first, int last, const std::vector<int> &master_facets) const;
 };
 
 inline MortarReport SolidContact::update(const ContactState<double> &state, const Pairs &pairs, bool derivatives,
@@ -299,163 +300,6 @@ template <FrictionLaw<double> Law> void SolidContact::node(int a, const Law &law
   block.residual.tail<3>() = constants.D * condition.residual;
 }
 
-template <class Law, class Emit> void SolidContact::jacobian(const Law &law, const Emit &emit) const
-{
-  std::vector<Eigen::Matrix<double, 3, 10>> slope(normal.size());
-  for (int a = first_node; a < last_node; ++a) {
-    if (!geometry.nodes[a].carries) {
-      emit(ContactBlock{{{ContactUnknown::multiplier, a}},
-                        {{ContactUnknown::multiplier, a}},
-                        geometry.nodes[a].extent * Matrix3<double>::Identity()});
-      continue;
-    }
-    const NodeContact contact = contact_of(a);
-    slope[a] = geometry.nodes[a].D * condition_slope<10>(point_of(a, contact), scale_of(a), law);
-    emit_node(a, contact, slope[a], emit);
-  }
-  for (std::size_t f = 0; f < facets.size(); ++f)
-    if (!facets[f].empty()) emit_facet(static_cast<int>(f), slope, emit);
-}
-
-/// What depends on the node's own unknowns, normal and multiplier, and on the masters with the mortar integrals fixed.
-template <class Emit>
-void SolidContact::emit_node(int a, const NodeContact &contact, const Eigen::Matrix<double, 3, 10> &slope,
-                             const Emit &emit) const
-{
-  using Kind = ContactUnknown;
-  const double D = geometry.nodes[a].D, spin = now.slave.rotation_rate - now.master.rotation_rate;
-  const Vector3<double> by_gap = slope.col(3);
-  const Matrix3<double> by_velocity = slope.middleCols<3>(4), by_normal = slope.rightCols<3>();
-  emit(ContactBlock{{{Kind::slave, a}}, {{Kind::multiplier, a}}, -D * Matrix3<double>::Identity()});
-
-  const auto masters = static_cast<Eigen::Index>(contact.masters.size());
-  ContactBlock forces, conditions;
-  forces.columns = {{Kind::multiplier, a}};
-  conditions.rows = {{Kind::multiplier, a}};
-  forces.values.resize(3 * masters, 3);
-  for (Eigen::Index k = 0; k < masters; ++k) {
-    forces.rows.push_back({Kind::master, contact.masters[k]});
-    forces.values.middleRows<3>(3 * k) = contact.M[k] * placed.R.transpose();
-  }
-  emit(forces);
-
-  conditions.columns = {{Kind::multiplier, a}, {Kind::slave, a}};
-  for (const auto &[b, d] : normal[a].d) conditions.columns.push_back({Kind::slave, b});
-  for (int m : contact.masters) conditions.columns.push_back({Kind::master, m});
-  conditions.values.resize(3, 3 * static_cast<Eigen::Index>(conditions.columns.size()));
-  Matrix3<double> own = now.shift * Matrix3<double>::Identity();
-  own(0, 1) -= spin;
-  own(1, 0) += spin;
-  conditions.values.leftCols<3>() = slope.leftCols<3>();
-  conditions.values.middleCols<3>(3) = by_velocity * own - by_gap * normal[a].n.transpose();
-  Eigen::Index column = 6;
-  const Matrix3<double> through_normal = by_normal + by_gap * contact.arm.transpose();
-  for (const auto &[b, d] : normal[a].d) {
-    conditions.values.middleCols<3>(column) = through_normal * d;
-    column += 3;
-  }
-  const Matrix3<double> through_master = (by_gap * normal[a].n.transpose() - now.shift * by_velocity) * placed.R / D;
-  for (Eigen::Index k = 0; k < masters; ++k)
-    conditions.values.middleCols<3>(column + 3 * k) = contact.M[k] * through_master;
-  emit(conditions);
-}
-
-/// The slave nodes on which the mortar integrals of facet f depend: its own, then those of its nodal normals.
-inline std::vector<ContactUnknown> SolidContact::neighbourhood(int f) const
-{
-  const QuadSurface &surface = geometry.slave_surface;
-  std::vector<ContactUnknown> nodes;
-  const auto add = [&](int a) {
-    const ContactUnknown entry{ContactUnknown::slave, a};
-    if (std::find(nodes.begin(), nodes.end(), entry) == nodes.end()) nodes.push_back(entry);
-  };
-  for (int b = 0; b < surface.facet_nodes(); ++b) add(surface.facets[f][b]);
-  for (int b = 0; b < surface.facet_nodes(); ++b)
-    for (const auto &at : surface.neighbours[surface.facets[f][b]])
-      for (int c = 0; c < surface.facet_nodes(); ++c) add(surface.facets[at.facet][c]);
-  return nodes;
-}
-
-/// What depends on the mortar integrals of slave facet f, pair by pair.
-template <class Emit>
-void SolidContact::emit_facet(int f, const std::vector<Eigen::Matrix<double, 3, 10>> &slope, const Emit &emit) const
-{
-  using Kind = ContactUnknown;
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const QuadSurface &surface = geometry.slave_surface, &other = geometry.master_surface;
-  const int nodes = surface.facet_nodes();
-  const std::vector<ContactUnknown> around = neighbourhood(f);
-  const auto place_of = [&](int a) {
-    return 3 * (std::find(around.begin(), around.end(), ContactUnknown{Kind::slave, a}) - around.begin());
-  };
-  const auto slaves = static_cast<Eigen::Index>(around.size());
-  std::vector<int> own; // local numbers of the nodes that are asked for
-  for (int b = 0; b < nodes; ++b) {
-    const int a = surface.facets[f][b];
-    if (a >= first_node && a < last_node && geometry.nodes[a].carries) own.push_back(b);
-  }
-  // Every derivative of a normal is used by all pairs.
-  Matrix by_position = Matrix::Zero(3 * nodes, 3 * slaves);
-  for (int b = 0; b < nodes; ++b)
-    for (const auto &[c, d] : normal[surface.facets[f][b]].d) by_position.block<3, 3>(3 * b, place_of(c)) += d;
-
-  for (const PairPart &part : facets[f]) {
-    ContactBlock block;
-    block.columns = around;
-    Matrix combine = Matrix::Zero(3 * nodes + 3 * static_cast<Eigen::Index>(own.size()), nodes * nodes);
-    for (int m = 0; m < nodes; ++m) {
-      const int master = other.facets[part.master][m];
-      block.rows.push_back({Kind::master, master});
-      block.columns.push_back({Kind::master, master});
-      const Vector3<double> rate = placed.R * now.master.rate[master];
-      for (std::size_t k = 0; k < own.size(); ++k) {
-        const int a = surface.facets[f][own[k]];
-        const double D = geometry.nodes[a].D;
-        combine.block<3, 1>(3 * m, own[k] * nodes + m) = placed.R.transpose() * now.multiplier[a];
-        combine.block<3, 1>(3 * nodes + 3 * static_cast<Eigen::Index>(k), own[k] * nodes + m) =
-            (normal[a].n.dot(placed.y[master]) * slope[a].col(3) - slope[a].middleCols<3>(4) * rate) / D;
-      }
-    }
-    for (int b : own) block.rows.push_back({Kind::multiplier, surface.facets[f][b]});
-    const Matrix raw = combine * part.dM; // by slave positions, normals, master positions
-    block.values.setZero(raw.rows(), 3 * (slaves + nodes));
-    block.values.leftCols(3 * slaves).noalias() = raw.middleCols(3 * nodes, 3 * nodes) * by_position;
-    block.values.leftCols(3 * nodes) += raw.leftCols(3 * nodes); // `around` begins with the facet's own nodes
-    for (int m = 0; m < nodes; ++m)
-      block.values.middleCols<3>(3 * (slaves + m)) = raw.middleCols<3>(3 * (2 * nodes + m)) * placed.R;
-    emit(block);
-  }
-}
-
-template <class Emit> void SolidContact::pattern(const Pairs &pairs, int first, int last, const Emit &emit) const
-{
-  using Kind = ContactUnknown;
-  const QuadSurface &surface = geometry.slave_surface, &other = geometry.master_surface;
-  for (int a = first; a < last; ++a) {
-    emit(ContactBlock{{{Kind::multiplier, a}}, {{Kind::multiplier, a}}, {}});
-    if (geometry.nodes[a].carries) emit(ContactBlock{{{Kind::slave, a}}, {{Kind::multiplier, a}}, {}});
-  }
-  for (const auto &[f, m] : pairs) {
-    if (!is_wanted(f, first, last)) continue;
-    ContactBlock all, forces;
-    all.columns = neighbourhood(f);
-    for (int b = 0; b < other.facet_nodes(); ++b) {
-      const ContactUnknown master{Kind::master, other.facets[m][b]};
-      all.rows.push_back(master);
-      all.columns.push_back(master);
-      forces.rows.push_back(master);
-    }
-    for (int b = 0; b < surface.facet_nodes(); ++b) {
-      const int a = surface.facets[f][b];
-      if (a < first || a >= last || !geometry.nodes[a].carries) continue;
-      all.rows.push_back({Kind::multiplier, a});
-      forces.columns.push_back({Kind::multiplier, a});
-    }
-    emit(all);
-    if (!forces.columns.empty()) emit(forces);
-  }
-}
-
 /// int N_a over the current surface [mm^2].
 inline double SolidContact::current_area(int a) const
 {
@@ -494,3 +338,5 @@ template <FrictionLaw<double> Law> NodeResult SolidContact::result(int a, const 
 }
 
 } // namespace tribogel
+
+#include "tribogel/contact/solid_jacobian.hpp"

@@ -109,6 +109,9 @@ struct Scene {
   TimeParameters time;
   OutputParameters output;
 
+  /// Whether the plates' turning against each other loads the gels anew.
+  bool loads_turn() const { return misalignment.any(); }
+
   /// The length that makes a twist a displacement: the radius of the top (or only) specimen [mm].
   double twist_length() const { return has_top ? top.radius : bottom.radius; }
 };
