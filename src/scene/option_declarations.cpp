@@ -256,7 +256,8 @@ OptionGroup discretisation_group()
         .kind = OptionKind::integer,
         .fallback = "12",
         .unit = "-",
-        .meaning = "elements along the top radius (the bottom one if it is alone); the rest of the mesh follows",
+        .meaning = "elements along the top radius (the bottom one if it is alone); the rest of the mesh follows"
+                   " (with -model solid the default is 3)",
         .source = "own",
         .range = {1, 1e6}},
        {.name = "-bottom_elements_radial",
@@ -270,7 +271,8 @@ OptionGroup discretisation_group()
         .kind = OptionKind::real,
         .fallback = "30",
         .unit = "-",
-        .meaning = "largest over smallest element edge; small ones go to the plates' and the contact's rims",
+        .meaning = "largest over smallest element edge; small ones go to the plates' and the contact's rims"
+                   " (with -model solid the default is 1)",
         .source = "own",
         .range = {1, 1e6}},
        {.name = "-mesh_refinements",

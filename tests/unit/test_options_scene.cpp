@@ -86,6 +86,11 @@ TEST(OptionsScene, defaults_are_the_paper_scene)
   for (const Phase &phase : scene.schedule) EXPECT_EQ(phase.end_approach, 0.79);
   EXPECT_EQ(scene.mesh.element_order, 2);
   EXPECT_EQ(scene.mesh.elements_radial, 12);
+  EXPECT_EQ(scene.mesh.grading, 30);
+  const Scene solid = scene_from_options({{"-model", "solid"}}).scene;
+  EXPECT_EQ(solid.mesh.elements_radial, 3);
+  EXPECT_EQ(solid.mesh.grading, 1);
+  EXPECT_EQ(scene_from_options({{"-model", "solid"}, {"-elements_radial", "5"}}).scene.mesh.elements_radial, 5);
   EXPECT_EQ(scene.output.directory, "tribogel-output");
   EXPECT_FALSE(scene.output.overwrite);
   EXPECT_TRUE(input.warnings.empty()) << joined(input.warnings);
