@@ -73,7 +73,9 @@ TEST(solid_hertz, DISABLED_PressureAndViscousTorque)
     EXPECT_LT(std::abs(e.radius), order == 1 && level == 0 ? 0.03 : 0.01);
     EXPECT_LT(e.pressure, 0.1);
     EXPECT_LT(std::abs(torque), order == 1 && level == 0 ? 0.06 : 0.02);
-    if (order == 1 && level == 1) EXPECT_LT(e.pressure, 0.6 * coarse);
+    if (order == 1 && level == 1) {
+      EXPECT_LT(e.pressure, 0.6 * coarse);
+    }
     coarse = e.pressure;
   }
 }
