@@ -132,9 +132,9 @@ private:
 
   static std::string listed(const Element &element)
   {
-    std::string out;
-    for (const int n : element.nodes) out += " " + std::to_string(n + 1);
-    return out;
+    std::ostringstream out;
+    for (const int n : element.nodes) out << " " << n + 1;
+    return out.str();
   }
 
   const SerialMesh &mesh;

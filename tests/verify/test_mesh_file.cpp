@@ -62,26 +62,10 @@ std::string replaced(std::string text, const std::string &from, const std::strin
 /// Two cubes, one on the other.
 SerialMesh cubes()
 {
-  Box box{{even(0, 1, 1), even(0, 1, 1), even(-1, 0, 1)}, {}};
-  box.sides[4] = Side::bottom_plate;
-  box.sides[5] = Side::master;
-  SerialMesh mesh = box.mesh();
-  box.levels[2] = even(0, 1, 1);
-  box.sides[4] = Side::slave;
-  box.sides[5] = Side::top_plate;
-  const SerialMesh top = box.mesh();
-  const auto shift = static_cast<int>(mesh.vertex.size());
-  mesh.vertex.insert(mesh.vertex.end(), top.vertex.begin(), top.vertex.end());
-  for (SerialMesh::Cell cell : top.cell) {
-    for (int &v : cell.vertex) v += shift;
-    cell.body = top_body;
-    mesh.cell.push_back(cell);
-  }
-  for (SerialMesh::Facet facet : top.boundary) {
-    for (int &v : facet.vertex) v += shift;
-    mesh.boundary.push_back(facet);
-  }
-  return mesh;
+  const std::optional<Side> free;
+  return stacked(
+      {{even(0, 1, 1), even(0, 1, 1), even(-1, 0, 1)}, {free, free, free, free, Side::bottom_plate, Side::master}},
+      {{even(0, 1, 1), even(0, 1, 1), even(0, 1, 1)}, {free, free, free, free, Side::slave, Side::top_plate}});
 }
 
 } // namespace
