@@ -73,7 +73,7 @@ SerialMesh cubes()
 /// Order 2: the 27 nodes lie on the curved bodies, and so do those of the built-in mesh.
 TEST(mesh_file, GivesTheForcesOfTheBuiltInMesh)
 {
-  const SolverOptions options(fixed_steps(0.5, 1e-12));
+  const SolverOptions options(fixed_steps(0.5, 1e-10)); // 1e-12 is below the round-off of the gap at the first touch
   for (const auto &[order, elements] : {std::array{1, 3}, std::array{2, 2}}) {
     const Scene scene = turned_gels(order, elements);
     const SerialMesh serial = revolved_mesh(meridian_blocks(scene));
@@ -82,6 +82,8 @@ TEST(mesh_file, GivesTheForcesOfTheBuiltInMesh)
                       b = measured(scene, read(order == 1 ? writer.format_2() : writer.format_4(), order));
     EXPECT_GT(a.normal_force, 10);
     EXPECT_GT(a.torque, 1);
+    std::printf("order %d: N differs by %.1e, T by %.1e\n", order, b.normal_force / a.normal_force - 1,
+                b.torque / a.torque - 1);
     EXPECT_NEAR(b.normal_force / a.normal_force, 1, 1e-10);
     EXPECT_NEAR(b.torque / a.torque, 1, 1e-10);
   }
