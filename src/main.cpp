@@ -1,4 +1,5 @@
 /// tribogel: two gels in a rheometer. Options in; force, torque and friction out; see -help.
+#include "mesh/mesh_file.hpp"
 #include "observe/checkpoint.hpp"
 #include "observe/progress.hpp"
 #include "scene/help.hpp"
@@ -40,6 +41,7 @@ PetscErrorCode Run(const CommandLine &line, int &status)
   const double start = MPI_Wtime();
   StoredRun stored;
   SceneInput input;
+  SerialMesh mesh;
   Problem problem;
   RunOutcome outcome;
   RunCost cost;
@@ -55,8 +57,9 @@ PetscErrorCode Run(const CommandLine &line, int &status)
     PetscCall(AdoptOptions(stored.options));
   }
   PetscCall(ReadScene(input));
+  PetscCall(MakeMesh(comm, input, mesh));
   if (continues) expect_unchanged(input, stored.options);
-  PetscCall(problem.SetUp(comm, input.scene));
+  PetscCall(problem.SetUp(comm, input.scene, mesh));
   PetscCall(problem.ProbeSolver());
   PetscCall(TakePetscHelp(petsc_help));
   if (line.help == HelpRequest::petsc) {

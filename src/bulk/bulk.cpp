@@ -296,7 +296,8 @@ PetscErrorCode Make(const Mesh &mesh, const Scene &scene, const Kinematics &kine
   PetscFunctionBeginUser;
   auto made = std::make_unique<BulkOf<Kinematics, order>>(mesh, kinematics, materials);
   PetscCheck(made->sound, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
-             "the mesh has a degenerate cell; allowed: other radii and heights, or another -mesh_grading");
+             "the mesh has a degenerate cell; allowed: other radii and heights, another -mesh_grading, or a -mesh_file "
+             "without it");
   bulk = std::move(made);
   PetscFunctionReturn(0);
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <vector>
 
 namespace tribogel
@@ -39,6 +40,10 @@ struct SerialMesh {
   std::vector<Cell> cell;
   std::vector<Facet> boundary;
   std::array<Shape, 2> shape; ///< of each body; empty: the grid itself
+
+  /// Reference positions [mm] of the middles of edges, faces and cells that do not lie at the means of their vertices,
+  /// which are the keys: decreasing, then -1.
+  std::map<std::array<int, 8>, std::array<double, 3>> middle;
 
   int corners() const { return 1 << dim; }             ///< of a cell
   int facet_corners() const { return 1 << (dim - 1); } ///< of a facet

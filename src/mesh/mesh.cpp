@@ -55,6 +55,7 @@ PetscErrorCode Mesh::Build(MPI_Comm comm, const Scene &scene, const SerialMesh &
   PetscCall(Tabulate());
   PetscCall(Place());
   PetscCall(Shape(serial));
+  if (order == 2) PetscCall(PlaceMiddles(serial));
   if (scene.has_top) {
     PetscCall(GatherSurface(*this, Side::slave, top_body, 0, slave));
     PetscCall(GatherSurface(*this, Side::master, bottom_body, 0, master));

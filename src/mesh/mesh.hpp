@@ -79,6 +79,7 @@ private:
   PetscErrorCode Tabulate();
   PetscErrorCode Place();
   PetscErrorCode Shape(const SerialMesh &serial);
+  PetscErrorCode PlaceMiddles(const SerialMesh &serial);
   PetscErrorCode Constrain(PetscSection section, const Node &node, bool indices);
 };
 

@@ -66,6 +66,15 @@ OptionGroup geometry_group()
                    " at t = 0 the gel is lowest at +x, and -initial_gap is measured there (-model solid)",
         .source = "own",
         .range = {-0.5, 0.5}},
+       {.name = "-mesh_file",
+        .kind = OptionKind::path,
+        .fallback = "",
+        .meaning = "Gmsh file of specimens of any shape, instead of the sizes above: hexahedra in the physical volumes"
+                   " top and bottom, their faces in the physical surfaces top_plate, bottom_plate, top_contact and"
+                   " bottom_contact (with -specimens bottom: bottom, top_plate and bottom_plate); mm, z = 0 is the"
+                   " bottom specimen's contact face, x = y = 0 the axis",
+        .source = "own",
+        .rule = "ASCII, format 2.2 or 4.1, from the working directory; -model solid, -schedule_kind transient"},
        {.name = "-plate_contact",
         .kind = OptionKind::flag,
         .fallback = "true",

@@ -28,10 +28,11 @@ std::string describe(const Ogden<double> &law)
          number(initial_poisson_ratio(law));
 }
 
-std::string describe(const Specimen &specimen, const std::string &name)
+std::string describe(const Specimen &specimen, const std::string &name, bool from_file)
 {
-  std::string text = "  " + name + "  radius " + number(specimen.radius) + " mm, height " + number(specimen.height) +
-                     " mm, " + (specimen.material.branches.empty() ? "hyperelastic" : "viscoelastic") +
+  std::string text = "  " + name + (from_file ? "  area of a circle with the radius " : "  radius ") +
+                     number(specimen.radius) + " mm, height " + number(specimen.height) + " mm, " +
+                     (specimen.material.branches.empty() ? "hyperelastic" : "viscoelastic") +
                      "\n          equilibrium: " + describe(specimen.material.equilibrium) + "\n";
   for (const MaxwellBranch<double> &branch : specimen.material.branches)
     text += "          Maxwell branch: " + describe(branch.spring) + ", relaxation times " +
@@ -78,17 +79,22 @@ std::string describe(const Schedule &schedule, double radius)
 std::string scene_report(const SceneInput &input)
 {
   const Scene &scene = input.scene;
-  std::string text = scene.has_top ? "Two gel cylinders, bonded to the plates, pressed together and turned\n"
-                                   : "One gel cylinder, bonded to both plates\n";
-  if (scene.has_top) text += describe(scene.top, "top   ");
-  text += describe(scene.bottom, "bottom");
+  const bool from_file = !input.mesh_file.empty();
+  const std::string shape = from_file ? "gel" : "gel cylinder";
+  std::string text = scene.has_top ? "Two " + shape + "s, bonded to the plates, pressed together and turned\n"
+                                   : "One " + shape + ", bonded to both plates\n";
+  if (scene.has_top) text += describe(scene.top, "top   ", from_file);
+  text += describe(scene.bottom, "bottom", from_file);
   if (scene.has_top)
     text += "  friction: " + describe(scene.friction) + "; initial gap " + number(scene.initial_gap) + " mm\n";
   text += describe(scene.schedule, scene.has_top ? scene.top.radius : scene.bottom.radius);
   text += std::string(scene.model == Model::solid ? "  solid" : "  axisymmetric") + " model, elements of order " +
-          std::to_string(scene.mesh.element_order) + ", " +
-          std::to_string(scene.mesh.elements_radial << scene.mesh.refinements) + " along the radius, grading " +
-          number(scene.mesh.grading) + "\n";
+          std::to_string(scene.mesh.element_order) + ", ";
+  if (from_file)
+    text += "mesh of " + input.mesh_file + "\n";
+  else
+    text += std::to_string(scene.mesh.elements_radial << scene.mesh.refinements) + " along the radius, grading " +
+            number(scene.mesh.grading) + "\n";
   text += "  output in " + scene.output.directory + "\n";
   for (const std::string &warning : input.warnings) text += "warning: " + warning + "\n";
   for (const std::string &note : input.notes) text += "note: " + note + "\n";

@@ -23,7 +23,7 @@ void read_geometry(const OptionReader &reader, Scene &scene)
   scene.bottom.height = reader.real("-bottom_height");
   scene.initial_gap = reader.real("-initial_gap");
   scene.plate_contact = reader.flag("-plate_contact");
-  if (scene.has_top && scene.top.radius > scene.bottom.radius) {
+  if (!reader.is_given("-mesh_file") && scene.has_top && scene.top.radius > scene.bottom.radius) {
     const Option &option = OptionReader::declared("-top_radius");
     refuse("-top_radius", reader.text(option),
            "allowed: " + option.allowed() + ", here -bottom_radius = " + to_text(scene.bottom.radius));
@@ -37,12 +37,31 @@ void read_misalignment(const OptionReader &reader, Scene &scene)
   const double angle = reader.real("-top_tilt");
   if (!scene.has_top) return;
   scene.misalignment = {{c[0], c[1]}, angle};
+  if (reader.is_given("-mesh_file")) {
+    if (angle != 0) refuse(tilt.name, reader.text(tilt), "allowed: 0 with -mesh_file, whose plates are level");
+    return; // how far the bottom specimen reaches is not known yet
+  }
   for (const Option *option : {&offset, &tilt})
     if (scene.model == Model::axisymmetric && scene.misalignment.any() && reader.is_given(option->name))
       refuse(option->name, reader.text(*option), "allowed: " + option->fallback + " with -model axisymmetric");
   if (!(std::hypot(c[0], c[1]) < scene.bottom.radius))
     refuse(offset.name, reader.text(offset),
            "allowed: within the bottom specimen, here -bottom_radius = " + to_text(scene.bottom.radius));
+}
+
+/// -mesh_file, if it is given, in place of all that describes cylinders and their meshes.
+void read_mesh_file(const OptionReader &reader, SceneInput &input)
+{
+  const Option &option = OptionReader::declared("-mesh_file");
+  if (!reader.is_given(option.name)) return;
+  input.mesh_file = reader.path(option);
+  input.scene.round = false;
+  if (input.scene.model != Model::solid) refuse(option.name, input.mesh_file, "allowed: with -model solid");
+  std::string idle;
+  for (const char *name : {"-top_radius", "-top_height", "-bottom_radius", "-bottom_height", "-initial_gap",
+                           "-elements_radial", "-bottom_elements_radial", "-mesh_grading", "-mesh_refinements"})
+    if (reader.is_given(name)) idle += (idle.empty() ? "" : ", ") + std::string(name);
+  if (!idle.empty()) input.notes.push_back("without effect with -mesh_file: " + idle);
 }
 
 /// -friction_speed_range, if it is given.
@@ -109,10 +128,15 @@ std::vector<double> read_approach(const OptionReader &reader, std::size_t phases
 }
 
 /// What stands between the plates must keep a height > 0.
-void check_approach(const Scene &scene, const std::vector<double> &approach, const std::string &text, SceneInput &input)
+void check_approach(SceneInput &input)
 {
+  const Scene &scene = input.scene;
+  const auto resolved = std::find_if(input.options.begin(), input.options.end(),
+                                     [](const auto &option) { return option.first == "schedule_approach"; });
+  const std::string &text = resolved->second;
   const double height = scene.bottom.height + (scene.has_top ? scene.top.height + scene.initial_gap : 0);
-  const double largest = *std::max_element(approach.begin(), approach.end());
+  double largest = scene.schedule.front().end_approach;
+  for (const Phase &phase : scene.schedule) largest = std::max(largest, phase.end_approach);
   if (!(largest < height))
     refuse("-schedule_approach", text,
            "allowed: each less than " + to_text(height) + " mm, " +
@@ -132,7 +156,6 @@ void read_schedule(const OptionReader &reader, SceneInput &input)
              to_text(ends[k]) + " after " + to_text(ends[k - 1]) + "; allowed: " + end_times.allowed());
   std::string approach_text;
   const std::vector<double> approach = read_approach(reader, ends.size(), approach_text);
-  check_approach(input.scene, approach, approach_text, input);
   input.options.emplace_back("schedule_approach", approach_text);
 
   const Option &rates = OptionReader::declared("-schedule_rates"), &twists = OptionReader::declared("-schedule_twists");
@@ -145,17 +168,21 @@ void read_schedule(const OptionReader &reader, SceneInput &input)
   input.scene.schedule =
       by_twists ? schedule_from_twists(ends, approach, values) : schedule_from_rates(ends, approach, values);
   input.options.emplace_back(turning.name.substr(1), reader.text(turning));
+  if (input.mesh_file.empty()) check_approach(input);
 }
 
 /// A steady state forgets how it was reached, except where friction holds gels at rest.
-void read_schedule_kind(const OptionReader &reader, Scene &scene)
+void read_schedule_kind(const OptionReader &reader, SceneInput &input)
 {
+  Scene &scene = input.scene;
   if (reader.choice("-schedule_kind") == "transient") return;
+  if (scene.loads_turn())
+    refuse(
+        "-schedule_kind", "steady",
+        "allowed: transient with -top_offset, -top_tilt or -mesh_file, whose specimens may be other than round: each "
+        "turn loads the gels anew");
   scene.schedule_kind = ScheduleKind::steady;
   if (!scene.has_top) return;
-  if (scene.loads_turn())
-    refuse("-schedule_kind", "steady",
-           "allowed: transient with -top_offset or -top_tilt, where each turn loads the gels anew");
   const bool holds = scene.friction.static_strength(1.0).value > 0;
   for (std::size_t k = 0; k < scene.schedule.size(); ++k)
     if (holds && scene.schedule[k].rate == 0)
@@ -202,7 +229,7 @@ void read_discretisation(const OptionReader &reader, SceneInput &input)
   scene.phase_end_tolerance = reader.real("-phase_end_tolerance");
   if (scene.loads_turn() && scene.phase_end_tolerance > 0)
     refuse("-phase_end_tolerance", to_text(scene.phase_end_tolerance),
-           "allowed: 0 with -top_offset or -top_tilt, where a phase cannot end in one long step");
+           "allowed: 0 with -top_offset, -top_tilt or -mesh_file, where a phase cannot end in one long step");
   const bool at_elements = reader.choice("-contact_integration") == "elements";
   if (at_elements && scene.model == Model::axisymmetric && scene.has_top)
     refuse("-contact_integration", "elements", "allowed: segments with -model axisymmetric");
@@ -212,7 +239,7 @@ void read_discretisation(const OptionReader &reader, SceneInput &input)
   scene.time.rule = second_order && !steady ? TimeRule::sdirk2 : TimeRule::exponential_euler;
   scene.time.tolerance = reader.real("-time_tolerance");
   const double elements = estimated_elements(scene);
-  if (elements > most_elements(scene)) {
+  if (input.mesh_file.empty() && elements > most_elements(scene)) {
     char rounded[32];
     std::snprintf(rounded, sizeof rounded, "%.3g", elements);
     refuse("-elements_radial", std::to_string(scene.mesh.elements_radial),
@@ -308,6 +335,24 @@ double estimated_elements(const Scene &scene)
   return count(scene.bottom, bottom > 0 ? bottom : top) + (scene.has_top ? count(scene.top, top) : 0);
 }
 
+void take_sizes(SceneInput &input, const SpecimenSizes &sizes)
+{
+  Scene &scene = input.scene;
+  const auto take = [&input](const std::string &name, double value, double &place) {
+    place = value;
+    for (auto &[option, text] : input.options)
+      if (option == name) text = to_text(value);
+  };
+  take("bottom_radius", sizes.radius[0], scene.bottom.radius);
+  take("bottom_height", sizes.height[0], scene.bottom.height);
+  if (scene.has_top) {
+    take("top_radius", sizes.radius[1], scene.top.radius);
+    take("top_height", sizes.height[1], scene.top.height);
+    take("initial_gap", sizes.gap, scene.initial_gap);
+  }
+  check_approach(input);
+}
+
 SceneInput scene_from_options(const GivenOptions &given)
 {
   const OptionReader reader(given);
@@ -317,6 +362,7 @@ SceneInput scene_from_options(const GivenOptions &given)
   reader.choice("-task");
   scene.has_top = reader.choice("-specimens") == "both";
   if (reader.choice("-model") == "solid") scene.model = Model::solid;
+  read_mesh_file(reader, input);
   read_geometry(reader, scene);
   read_misalignment(reader, scene);
   SceneInput unused; // a top specimen that is not there raises no warnings
@@ -325,7 +371,7 @@ SceneInput scene_from_options(const GivenOptions &given)
   scene.bottom.material = read_material(reader, "bottom", input);
   read_friction(reader, input);
   read_schedule(reader, input);
-  read_schedule_kind(reader, scene);
+  read_schedule_kind(reader, input);
   read_discretisation(reader, input);
   read_output(reader, input);
   warn_about_relaxation(scene, input);

@@ -4,6 +4,7 @@
 #include "scene/user_error.hpp"
 #include "tribogel/scene/scene.hpp"
 
+#include <array>
 #include <map>
 #include <string>
 #include <utility>
@@ -17,6 +18,7 @@ using GivenOptions = std::map<std::string, std::string>;
 
 struct SceneInput {
   Scene scene;
+  std::string mesh_file;                                    ///< -mesh_file; empty: the cylinders of the scene
   std::vector<std::pair<std::string, std::string>> options; ///< every option as resolved: name without the dash, text
   GivenOptions given;                                       ///< as they came in
   std::vector<std::string> warnings;                        ///< runs, but is hardly what was meant
@@ -27,6 +29,16 @@ struct SceneInput {
 
 /// Throws UserError at the first option that is wrong.
 SceneInput scene_from_options(const GivenOptions &given);
+
+/// What stands for the sizes of specimens that a file describes; [0] is the bottom one. Lengths in mm.
+struct SpecimenSizes {
+  std::array<double, 2> radius{}; ///< of the circle with the area of the contact face, or of the top plate's face
+  std::array<double, 2> height{}; ///< from the plate to z = 0, and from the gap's end to the plate
+  double gap = 0;                 ///< from z = 0 to the lowest point of the top gel
+};
+
+/// Puts these sizes into the scene and its resolved options, and judges the approach by them. Throws UserError.
+void take_sizes(SceneInput &input, const SpecimenSizes &sizes);
 
 /// Elements that a uniform mesh of this scene has at -elements_radial [1]. Grading does not reduce it below.
 double estimated_elements(const Scene &scene);

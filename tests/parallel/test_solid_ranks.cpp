@@ -1,5 +1,6 @@
 /// Solids on any number of ranks: force and torque of a single gel are those of one rank, to the round-off of another
 /// order of summation; the surfaces of two gels are the same list on every rank.
+#include "gmsh_writer.hpp"
 #include "solids.hpp"
 
 namespace tribogel::test
@@ -8,27 +9,33 @@ namespace tribogel::test
 namespace
 {
 
-void run_on(MPI_Comm comm, const Scene &scene, Problem &problem, Recorder &recorder)
+void run_on(MPI_Comm comm, const Scene &scene, const SerialMesh &serial, Problem &problem, Recorder &recorder)
 {
   bool completed = false;
   std::string why;
-  ASSERT_EQ(problem.SetUp(comm, scene), 0);
+  ASSERT_EQ(problem.SetUp(comm, scene, serial), 0);
   ASSERT_EQ(problem.Run({&recorder}, completed, why), 0);
   ASSERT_TRUE(completed) << why;
 }
 
 /// N to 1e-10 of itself, T of N R.
-void compare(const Scene &scene, Problem &shared, Problem &single)
+void compare(const Scene &scene, Problem &shared, Problem &single, const SerialMesh &given, const SerialMesh &whole)
 {
   Recorder many(""), one("");
-  run_on(PETSC_COMM_WORLD, scene, shared, many);
-  run_on(PETSC_COMM_SELF, scene, single, one);
+  run_on(PETSC_COMM_WORLD, scene, given, shared, many);
+  run_on(PETSC_COMM_SELF, scene, whole, single, one);
   ASSERT_EQ(many.rows.size(), one.rows.size());
   const Measurement &a = many.rows.back().measurement, &b = one.rows.back().measurement;
   EXPECT_GT(b.normal_force, 10);
   EXPECT_GT(b.torque, 1);
   EXPECT_NEAR(a.normal_force, b.normal_force, 1e-10 * b.normal_force);
   EXPECT_NEAR(a.torque, b.torque, 1e-10 * b.normal_force * scene.twist_length());
+}
+
+void compare(const Scene &scene, Problem &shared, Problem &single)
+{
+  const SerialMesh serial = revolved_mesh(meridian_blocks(scene));
+  compare(scene, shared, single, serial, serial);
 }
 
 int sum_over_ranks(int mine)
@@ -63,6 +70,28 @@ TEST(solid_ranks, GiveTheNumbersOfOneInContact)
   scene.schedule_kind = ScheduleKind::steady;
   Problem shared, single;
   compare(scene, shared, single);
+}
+
+/// Curved cells of a file that the first rank alone has read, against the same on one rank.
+TEST(solid_ranks, ShareAMeshFile)
+{
+  const SolverOptions options(fixed_steps(0.5, 1e-12));
+  Scene scene = solid_cylinder(4.5, 3, hyperelastic_gel(), 2, 3);
+  scene.schedule = schedule_from_twists({1}, {0.3}, {0.5});
+  const SerialMesh serial = revolved_mesh(meridian_blocks(scene));
+  std::istringstream file(GmshWriter(serial, false, 27).format_4());
+  const SerialMesh whole = mesh_of_gmsh(file, false, 2);
+  SerialMesh nothing;
+  nothing.dim = 3;
+  int rank;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  Problem shared, single;
+  compare(scene, shared, single, rank ? nothing : whole, whole);
+  for (const Node &node : shared.mesh.nodes) {
+    if (node.on(Side::wall)) {
+      EXPECT_NEAR(std::hypot(node.X[0], node.X[1]), 4.5, 1e-13);
+    }
+  }
 }
 
 TEST(solid_ranks, KnowTheSurfacesEverywhere)

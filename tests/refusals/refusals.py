@@ -9,11 +9,14 @@ options/README.md must be what -help markdown prints.
 """
 import argparse
 import pathlib
+import re
+import subprocess
 import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
+TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
+sys.path.insert(0, str(TOOLS))
 from judge import contents, faults_of_refusal, start  # noqa: E402
 
 TIMEOUT = 120  # s
@@ -22,6 +25,9 @@ ALLOWED = "allowed: "
 # A scene that is over in a moment, for what must run.
 SMALL = ["-specimens", "bottom", "-element_order", "1", "-elements_radial", "2", "-schedule_end_times", "1",
          "-schedule_approach", "0.05", "-schedule_rates", "0"]
+
+SOLID = ["-model", "solid"]
+BRIEF = ["-element_order", "1", "-schedule_end_times", "1", "-schedule_approach", "0.01", "-schedule_rates", "0"]
 
 # name, words on the command line, what the line must contain besides "allowed: "
 REFUSALS = [
@@ -109,13 +115,38 @@ REFUSALS = [
     ("pressure floor", ["-friction_pressure_floor", "0"], ["-friction_pressure_floor = 0", "> 0"]),
     ("gap in the branches", ["-top_maxwell3_viscosities", "4,5"], ["-top_maxwell3_viscosities = 4,5"]),
     ("incomplete branch", ["-top_maxwell2_viscosities", "4,5"], ["-top_maxwell2_ogden_moduli"]),
+    ("mesh file that is not there", SOLID + ["-mesh_file", "no/such.msh"],
+     ["-mesh_file = no/such.msh", "does not exist", "working directory"]),
+    ("mesh file that is a directory", SOLID + ["-mesh_file", "a_run"], ["-mesh_file = a_run", "no regular file"]),
+    ("mesh file that is none", SOLID + ["-mesh_file", "a_file"], ["-mesh_file = a_file: line 1", "format 2.2 or 4.1"]),
+    ("mesh file not named", SOLID + ["-mesh_file"], ["-mesh_file: value missing"]),
+    ("mesh file of tetrahedra", SOLID + ["-mesh_file", "tetrahedra.msh"],
+     ["-mesh_file = tetrahedra.msh: line ", "type 4 (tetrahedron)", "hexahedra"]),
+    ("mesh file without a group", SOLID + ["-mesh_file", "nameless.msh"],
+     ["-mesh_file = nameless.msh: no physical surface 'top_contact'"]),
+    ("mesh file with an inner face", SOLID + ["-mesh_file", "inner.msh"],
+     ["-mesh_file = inner.msh: element ", "of top_contact is not on the boundary of top"]),
+    ("mesh file with an inclined plate", SOLID + ["-mesh_file", "inclined.msh"],
+     ["-mesh_file = inclined.msh: bottom_plate reaches from z = -4", "horizontal plane"]),
+    ("mesh file that is too low", SOLID + ["-mesh_file", "low.msh"],
+     ["-mesh_file = low.msh: bottom_contact has its highest point at z = -1 mm", "z = 0"]),
+    ("mesh file of overlapping gels", SOLID + ["-mesh_file", "overlapping.msh"],
+     ["-mesh_file = overlapping.msh: top_contact has its lowest point at z = -0.5 mm", "z >= 0"]),
+    ("mesh file of two gels for one", SOLID + ["-mesh_file", "good.msh", "-specimens", "bottom"],
+     ["-mesh_file = good.msh: element ", "of top_plate is not on the boundary of bottom"]),
+    ("more approach than the mesh file's height", SOLID + ["-mesh_file", "good.msh", "-schedule_approach", "9,9,9,9,9"],
+     ["-schedule_approach = 9,9,9,9,9", "8.4 mm"]),
+    ("mesh file in the half plane", ["-mesh_file", "good.msh"], ["-mesh_file = good.msh", "-model solid"]),
+    ("steady state of a mesh file", SOLID + ["-mesh_file", "good.msh", "-schedule_kind", "steady"],
+     ["-schedule_kind = steady", "-mesh_file", "transient"]),
     ("unknown kind of help", ["-help", "me"], ["-help = me", "petsc"]),
 ]
 
 # These take different ways through the program; they are repeated on two processes.
 ON_TWO_PROCESSES = {"misspelt option", "misspelt solver option", "unknown solver", "blanks for commas", "NaN",
                     "missing options file", "blanks for commas in a file", "output below a regular file", "existing run",
-                    "stray word", "restart of a text"}
+                    "stray word", "restart of a text", "mesh file that is none",
+                    "more approach than the mesh file's height"}
 
 # name, words, exit status 0 and this on stdout
 RUNS = [
@@ -128,6 +159,8 @@ RUNS = [
      ["note: without effect with -bottom_material hyperelastic: -bottom_maxwell_bulk_modulus"]),
     ("existing run, to be replaced", ["-output_directory", "a_run", "-overwrite"] + SMALL, ["a_run"]),
     ("unused solver option in a file", ["-options_file", "unused.opts"] + SMALL, ["warning: -pc_hypre_type"]),
+    ("mesh file with sizes", SOLID + ["-mesh_file", "good.msh", "-top_radius", "3", "-mesh_grading", "9"] + BRIEF,
+     ["note: without effect with -mesh_file: -top_radius, -mesh_grading", "mesh of good.msh"]),
     ("help", ["-help"], ["-friction_coefficients", "default: 0,8e-4", "MPa s"]),
     ("version", ["-version"], ["tribogel "]),
 ]
@@ -148,6 +181,27 @@ def prepare(directory):
     (directory / "zero_byte.opts").write_text("-top_height 4\0 5\n")
     (directory / "wrong.yaml").write_text("top_height: [4\n")
     (directory / "unused.opts").write_text("-pc_hypre_type boomeramg\n")
+    prepare_meshes(directory)
+
+
+def prepare_meshes(directory):
+    """A mesh file, and ways to spoil it: 27 nodes of the bottom specimen, 27 of the top one, 9 a layer."""
+    made = subprocess.run([TOOLS / "specimen-mesh", "square", "--elements", "1"], capture_output=True, text=True, check=True)
+    good = made.stdout
+    head, tail = good.index("$Nodes\n54\n") + 10, good.index("$EndNodes")
+
+    def moved(lift):
+        """With `lift` of a node's number added to its z."""
+        nodes = [line.split() for line in good[head:tail].splitlines()]
+        return good[:head] + "".join(f"{n} {x} {y} {float(z) + lift(int(n))}\n" for n, x, y, z in nodes) + good[tail:]
+
+    contact = re.search(" 3 2 5 5( .*)", good).group()  # the first face of top_contact
+    inner = " 3 2 5 5 " + " ".join(str(int(node) + 9) for node in contact.split()[4:])
+    for name, text in [("good", good), ("nameless", good.replace('"top_contact"', '"contact"')),
+                       ("tetrahedra", good.replace(" 5 2 1 1 ", " 4 2 1 1 ", 1)), ("inner", good.replace(contact, inner)),
+                       ("inclined", moved(lambda n: -0.1 if n == 1 else 0)), ("low", moved(lambda n: -1 if n < 28 else 0)),
+                       ("overlapping", moved(lambda n: -0.5 if n > 27 else 0))]:
+        (directory / f"{name}.msh").write_text(text)
 
 
 def judge_refusal(command, expected):

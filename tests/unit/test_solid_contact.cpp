@@ -153,6 +153,52 @@ TEST(SolidContact, ForceAndTorqueBalanceOnAFlatInterface)
   }
 }
 
+/// C3: on curved surfaces the forces balance to round-off, and what is left of the moment is the gap
+/// between the two interpolants of one surface times the traction: it falls as they approach each other.
+TEST(SolidContact, TorqueBalanceOnCurvedFacetsFallsWithTheFacets)
+{
+  const auto wavy = [](double x, double y) {
+    return Vector3<double>(x, y, 0.15 * std::cos(1.1 * x + 0.3) * std::cos(0.9 * y - 0.2));
+  };
+  for (int order : {1, 2}) {
+    double before = 0;
+    for (const int n : {2, 4, 8}) {
+      SolidScene scene(quad_grid(n, n, 1.1, 1.3, order, false, wavy),
+                       quad_grid(2 * n + 1, 2 * n + 1, 2.6, 2.4, order, true, wavy), order);
+      for (int a = 0; a < scene.slaves(); ++a) {
+        const Vector3<double> &X = scene.geometry.slave.X[a];
+        scene.state.multiplier[a] = {0.3 * X[1], -0.2 + 0.1 * X[0], 1.0 - X[0] * X[0]};
+      }
+      SolidContact contact(scene.geometry);
+      ASSERT_EQ(contact.update(scene.state, contact.candidate_pairs(scene.state, 0), false).status, MortarStatus::ok);
+      Vector3<double> force = Vector3<double>::Zero(), moments = force;
+      double size = 0;
+      for (int a = 0; a < scene.slaves(); ++a) {
+        NodeBlock block;
+        contact.node(a, viscous, block);
+        const Vector3<double> f = block.residual.head<3>();
+        force += f;
+        moments += scene.geometry.slave.X[a].cross(f);
+        size += f.norm();
+        for (std::size_t k = 0; k < block.master_nodes.size(); ++k) {
+          const Vector3<double> g = block.residual.segment<3>(3 + 3 * k);
+          force += g;
+          moments += scene.geometry.master.X[block.master_nodes[k]].cross(g);
+        }
+      }
+      const double moment = moments.norm();
+      std::printf("order %d, %d facets a side: moment %.3e, about z %.3e, of %.3e N mm\n", order, n, moment, moments[2],
+                  size);
+      EXPECT_LT(force.norm(), 1e-13 * size);
+      if (before > 0) {
+        EXPECT_GT(before / moment, order == 1 ? 3.5 : 7) << "order " << order << ", " << n;
+      }
+      before = moment;
+    }
+    EXPECT_LT(before, order == 1 ? 1e-3 : 1e-5);
+  }
+}
+
 /// C2: both plates turn together, any number of times; and turning against each other is omega x r at every node.
 TEST(SolidContact, CommonRotationIsNoSlidingAndTheRestIsExact)
 {

@@ -51,6 +51,25 @@ private:
   int cells(int axis) const { return static_cast<int>(levels[axis].size()) - 1; }
 };
 
+/// Both boxes as one mesh, the second one the top body.
+inline SerialMesh stacked(const Box &lower, const Box &upper)
+{
+  SerialMesh mesh = lower.mesh();
+  const SerialMesh top = upper.mesh();
+  const auto shift = static_cast<int>(mesh.vertex.size());
+  mesh.vertex.insert(mesh.vertex.end(), top.vertex.begin(), top.vertex.end());
+  for (SerialMesh::Cell cell : top.cell) {
+    for (int &v : cell.vertex) v += shift;
+    cell.body = top_body;
+    mesh.cell.push_back(cell);
+  }
+  for (SerialMesh::Facet facet : top.boundary) {
+    for (int &v : facet.vertex) v += shift;
+    mesh.boundary.push_back(facet);
+  }
+  return mesh;
+}
+
 inline std::vector<double> even(double a, double b, int cells)
 {
   std::vector<double> levels;

@@ -96,6 +96,7 @@ struct Scene {
   PlateBond plate_bond = PlateBond::glued;
   double initial_gap = 0; ///< between the gels before contact, to the lowest point of a tilted one [mm]
   Misalignment misalignment;
+  bool round = true; ///< the specimens are of revolution; false: of a mesh file
   /// The side walls may touch the plates, and the top gel's wall may roll onto the bottom gel; else they meet nothing.
   bool plate_contact = true;
   ContactIntegration contact_integration = ContactIntegration::segments;
@@ -110,7 +111,7 @@ struct Scene {
   OutputParameters output;
 
   /// Whether the plates' turning against each other loads the gels anew.
-  bool loads_turn() const { return misalignment.any(); }
+  bool loads_turn() const { return misalignment.any() || !round; }
 
   /// The length that makes a twist a displacement: the radius of the top (or only) specimen [mm].
   double twist_length() const { return has_top ? top.radius : bottom.radius; }

@@ -1,0 +1,152 @@
+#include "mesh/mesh_file.hpp"
+
+#include "mesh/cylinder.hpp"
+#include "mesh/gmsh_bodies.hpp"
+#include "scene/first_process.hpp"
+#include "scene/parse.hpp"
+#include "tribogel/element/quadrature.hpp"
+#include "tribogel/element/shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <numbers>
+
+namespace tribogel
+{
+
+namespace
+{
+
+/// How far from a plane or from z = 0 a node may lie that is meant to be there, over the height: files have few digits.
+constexpr double flat = 1e-6;
+
+using Place = std::array<double, 3>;
+
+/// The nodes of a face that elements of order 2 see, lexicographic.
+std::array<Place, 9> nodes_of(const SerialMesh &mesh, const std::array<int, 4> &around)
+{
+  const auto at = [&](const std::vector<int> &vertices) {
+    if (const auto found = mesh.middle.find(middle_key(vertices)); found != mesh.middle.end()) return found->second;
+    Place mean{};
+    for (const int v : vertices)
+      for (int i = 0; i < 3; ++i) mean[i] += mesh.vertex[v][i] / static_cast<double>(vertices.size());
+    return mean;
+  };
+  const auto [a, b, c, d] = around;
+  return {at({a}), at({a, b}), at({b}), at({a, d}), at({a, b, c, d}), at({b, c}), at({d}), at({c, d}), at({c})};
+}
+
+double area_of(const std::array<Place, 9> &X)
+{
+  static const auto gauss = gauss_rule<4>();
+  double area = 0;
+  for (int q = 0; q < 16; ++q) {
+    const auto shape = tensor_shape<2, 2>({gauss.point[q % 4], gauss.point[q / 4]});
+    double slope[2][3] = {};
+    for (int a = 0; a < 9; ++a)
+      for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 3; ++i) slope[j][i] += shape.dN[a][j] * X[a][i];
+    const double n[3] = {slope[0][1] * slope[1][2] - slope[0][2] * slope[1][1],
+                         slope[0][2] * slope[1][0] - slope[0][0] * slope[1][2],
+                         slope[0][0] * slope[1][1] - slope[0][1] * slope[1][0]};
+    area += gauss.weight[q % 4] * gauss.weight[q / 4] * std::hypot(n[0], n[1], n[2]);
+  }
+  return area;
+}
+
+struct Extent {
+  double low = std::numeric_limits<double>::infinity(), high = -low, area = 0;
+};
+
+/// Heights, and whether the faces are where they have to be.
+SpecimenSizes measure(const SerialMesh &mesh, bool has_top)
+{
+  SpecimenSizes sizes;
+  Extent extent[side_count];
+  for (const SerialMesh::Facet &facet : mesh.boundary) {
+    Extent &side = extent[static_cast<int>(facet.side)];
+    const auto nodes = nodes_of(mesh, facet.vertex);
+    side.area += area_of(nodes);
+    for (const Place &X : nodes) {
+      side.low = std::min(side.low, X[2]);
+      side.high = std::max(side.high, X[2]);
+    }
+  }
+  const auto of = [&](Side side) -> const Extent & { return extent[static_cast<int>(side)]; };
+  const Extent &upper = of(has_top ? Side::master : Side::top_plate), &lower = of(Side::bottom_plate);
+  const char *const upper_name = has_top ? "bottom_contact" : "top_plate";
+  const double height = upper.high - lower.low;
+  const double tolerance = flat * std::abs(height);
+  for (const SurfaceGroup &group : surface_groups(has_top)) {
+    const Extent &side = of(group.side);
+    if (group.side != Side::top_plate && group.side != Side::bottom_plate) continue;
+    if (side.high - side.low > tolerance)
+      throw UserError{std::string(group.name) + " reaches from z = " + to_text(side.low) + " mm to " +
+                      to_text(side.high) + " mm; allowed: a horizontal plane, the plate is one"};
+  }
+  if (std::abs(upper.high) > tolerance)
+    throw UserError{std::string(upper_name) + " has its highest point at z = " + to_text(upper.high) +
+                    " mm; allowed: z = 0 (lengths in mm, the plates' axis is x = y = 0)"};
+  if (!(lower.high < 0))
+    throw UserError{"bottom_plate at z = " + to_text(lower.high) + " mm; allowed: z < 0, below the gel"};
+  sizes.height[bottom_body] = -lower.low;
+  sizes.radius[bottom_body] = std::sqrt(upper.area / std::numbers::pi);
+  if (!has_top) return sizes;
+  const Extent &slave = of(Side::slave);
+  if (slave.low < -tolerance)
+    throw UserError{"top_contact has its lowest point at z = " + to_text(slave.low) +
+                    " mm; allowed: z >= 0, above bottom_contact"};
+  if (!(of(Side::top_plate).low > slave.high))
+    throw UserError{"top_plate at z = " + to_text(of(Side::top_plate).low) + " mm; allowed: above top_contact"};
+  sizes.gap = std::max(0.0, slave.low);
+  sizes.height[top_body] = of(Side::top_plate).low - sizes.gap;
+  sizes.radius[top_body] = std::sqrt(slave.area / std::numbers::pi);
+  return sizes;
+}
+
+/// Reads the file; a complaint in words, empty if all is well.
+std::string read_file(const std::string &path, const Scene &scene, SerialMesh &mesh, SpecimenSizes &sizes)
+{
+  std::error_code ignored;
+  const std::string file = "-mesh_file = " + path + ": ";
+  if (!std::filesystem::exists(path, ignored))
+    return file + "does not exist; allowed: a Gmsh file, its path relative to the working directory";
+  if (!std::filesystem::is_regular_file(path, ignored)) return file + "is no regular file; allowed: a Gmsh file";
+  std::ifstream stream(path);
+  if (!stream) return file + "cannot be read; allowed: a Gmsh file";
+  try {
+    mesh = mesh_of_gmsh(stream, scene.has_top, scene.mesh.element_order);
+    sizes = measure(mesh, scene.has_top);
+  } catch (const UserError &error) {
+    return file + error.text;
+  }
+  if (static_cast<double>(mesh.cell.size()) > most_elements(scene))
+    return file + std::to_string(mesh.cell.size()) + " hexahedra; allowed: at most " + to_text(most_elements(scene)) +
+           " (matrix positions are 32-bit numbers)";
+  return {};
+}
+
+} // namespace
+
+PetscErrorCode MakeMesh(MPI_Comm comm, SceneInput &input, SerialMesh &mesh)
+{
+  Scene &scene = input.scene;
+  SpecimenSizes sizes;
+  PetscFunctionBeginUser;
+  if (input.mesh_file.empty()) {
+    const auto blocks = meridian_blocks(scene);
+    mesh = scene.model == Model::solid ? revolved_mesh(blocks) : serial_mesh(blocks);
+    PetscFunctionReturn(0);
+  }
+  PetscCall(OnFirstProcess(comm, [&] { return read_file(input.mesh_file, scene, mesh, sizes); }));
+  std::vector<double> known{sizes.radius[0], sizes.radius[1], sizes.height[0], sizes.height[1], sizes.gap};
+  PetscCall(Broadcast(comm, known));
+  take_sizes(input, {{known[0], known[1]}, {known[2], known[3]}, known[4]});
+  mesh.dim = 3;
+  PetscFunctionReturn(0);
+}
+
+} // namespace tribogel
