@@ -28,7 +28,7 @@ template <class S> struct VolumetricStress {
   S bulk = 0; ///< d mean/d theta [MPa]
 };
 
-/// U(J) of W = ... + U(J): K/4 (J^2 - 2 ln J - 1), the paper's, or K/2 (J - 1)^2, that of many other programs. The
+/// The volumetric energy: K/4 (J^2 - 2 ln J - 1), the paper's, or K/2 (J - 1)^2, that of many other programs. The
 /// latter's mean Kirchhoff stress has a minimum at J = 1/2 and vanishes at J = 0.
 enum class VolumetricLaw { logarithmic, quadratic };
 
