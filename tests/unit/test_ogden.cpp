@@ -169,12 +169,12 @@ TEST(Ogden, small_strains_lose_no_digits)
 TEST(Ogden, compressed_cylinder_of_the_quadratic_law)
 {
   Ogden<double> law{{0.5}, {2}, 5, VolumetricLaw::quadratic};
-  const Real G = 0.5L, K = 5, axial = 0.9L;
+  const Real G = 0.5L, K = 5, axial = 0.7L;
   const auto lateral_stress = [&](Real l) {
     const Real J = l * l * axial;
     return G / 3 * (l * l - axial * axial) / std::cbrt(J * J) + K * J * (J - 1);
   };
-  const Real l = root(lateral_stress, 0.9L, 1.2L), J = l * l * axial;
+  const Real l = root(lateral_stress, 0.9L, 1.3L), J = l * l * axial;
   const Real tau = 2 * G / 3 * (axial * axial - l * l) / std::cbrt(J * J) + K * J * (J - 1);
   const auto side = static_cast<double>(l), height = static_cast<double>(axial);
   EXPECT_LT((stress(law, side, side, height, 21) -
