@@ -10,13 +10,14 @@ namespace
 
 /// Each term must be stable by itself; the sum then gives a positive shear modulus.
 Ogden<double> read_ogden(const OptionReader &reader, const Option &moduli, const Option &exponents,
-                         const Option &bulk_modulus)
+                         const Option &bulk_modulus, VolumetricLaw volumetric_law)
 {
   reader.expect_equal_lengths(exponents, moduli);
   Ogden<double> law;
   law.moduli = reader.reals(moduli);
   law.exponents = reader.reals(exponents);
   law.bulk_modulus = reader.real(bulk_modulus);
+  law.volumetric_law = volumetric_law;
   for (std::size_t r = 0; r < law.moduli.size(); ++r) {
     if (law.exponents[r] == 0) refuse(exponents.name, reader.text(exponents), "allowed: " + exponents.allowed());
     if (!(law.moduli[r] * law.exponents[r] > 0))
@@ -36,10 +37,11 @@ void warn_if_auxetic(const Ogden<double> &law, const std::string &bulk_modulus, 
                              "; are both in MPa?");
 }
 
-MaxwellBranch<double> read_branch(const OptionReader &reader, const std::vector<Option> &options, SceneInput &input)
+MaxwellBranch<double> read_branch(const OptionReader &reader, const std::vector<Option> &options,
+                                  VolumetricLaw volumetric_law, SceneInput &input)
 {
   MaxwellBranch<double> branch;
-  branch.spring = read_ogden(reader, options[0], options[1], options[2]);
+  branch.spring = read_ogden(reader, options[0], options[1], options[2], volumetric_law);
   const std::vector<double> viscosities = reader.reals(options[3]);
   branch.deviatoric_viscosity = viscosities[0];
   branch.volumetric_viscosity = viscosities[1];
@@ -69,12 +71,14 @@ Viscoelastic<double> read_material(const OptionReader &reader, const std::string
   const auto declared = [&](const std::string &rest) { return OptionReader::declared(stem + rest); };
   const bool viscoelastic = reader.choice(stem + "_material") == "viscoelastic";
   Viscoelastic<double> material;
-  material.equilibrium =
-      read_ogden(reader, declared("_ogden_moduli"), declared("_ogden_exponents"), declared("_bulk_modulus"));
+  const VolumetricLaw volumetric_law =
+      reader.choice(stem + "_volumetric_law") == "quadratic" ? VolumetricLaw::quadratic : VolumetricLaw::logarithmic;
+  material.equilibrium = read_ogden(reader, declared("_ogden_moduli"), declared("_ogden_exponents"),
+                                    declared("_bulk_modulus"), volumetric_law);
   warn_if_auxetic(material.equilibrium, stem + "_bulk_modulus", input);
 
   SceneInput branches; // read in any case, so that a wrong value is refused; kept if they count
-  material.branches.push_back(read_branch(reader, first_branch_options(body), branches));
+  material.branches.push_back(read_branch(reader, first_branch_options(body), volumetric_law, branches));
   for (int number = 2; any_given(reader, branch_names(body, number).all()); ++number) {
     const std::vector<Option> options = further_branch_options(body, number);
     for (const Option &option : options) {
@@ -83,7 +87,7 @@ Viscoelastic<double> read_material(const OptionReader &reader, const std::string
                         ": value missing, a branch beyond the first has no defaults; allowed: " + option.allowed()};
       branches.options.emplace_back(option.name.substr(1), reader.text(option));
     }
-    material.branches.push_back(read_branch(reader, options, branches));
+    material.branches.push_back(read_branch(reader, options, volumetric_law, branches));
   }
   input.options.insert(input.options.end(), branches.options.begin(), branches.options.end());
   if (viscoelastic) {

@@ -143,6 +143,13 @@ OptionGroup material_group(const std::string &body)
   const BranchNames equilibrium{stem + "_ogden_moduli", stem + "_ogden_exponents", stem + "_bulk_modulus", ""};
   for (const Option &option : ogden_options(equilibrium, "equilibrium", "0.75,0.45,0.18"))
     group.options.push_back(option);
+  group.options.push_back({.name = stem + "_volumetric_law",
+                           .kind = OptionKind::choice,
+                           .fallback = "logarithmic",
+                           .meaning = "volumetric energy of all springs: logarithmic: K/4 (J^2 - 2 ln J - 1); "
+                                      "quadratic: K/2 (J - 1)^2",
+                           .source = "paper",
+                           .choices = {"logarithmic", "quadratic"}});
   for (const Option &option : branch_options(body, 1)) group.options.push_back(option);
   return group;
 }

@@ -24,7 +24,8 @@ std::string number(double x)
 std::string describe(const Ogden<double> &law)
 {
   return std::to_string(law.moduli.size()) + (law.moduli.size() == 1 ? " Ogden term" : " Ogden terms") + ", G " +
-         number(law.shear_modulus()) + " MPa, K " + number(law.bulk_modulus) + " MPa, Poisson's ratio " +
+         number(law.shear_modulus()) + " MPa, K " + number(law.bulk_modulus) +
+         (law.volumetric_law == VolumetricLaw::quadratic ? " MPa (quadratic)" : " MPa") + ", Poisson's ratio " +
          number(initial_poisson_ratio(law));
 }
 

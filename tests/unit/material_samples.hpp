@@ -38,6 +38,15 @@ inline Viscoelastic<double> hyperelastic()
   return {{{0.52, 0.19, -0.07}, {1.4, 3.3, -2.6}, 11.0}, {}};
 }
 
+/// Two branches and the other volumetric law in all springs.
+inline Viscoelastic<double> quadratic()
+{
+  Viscoelastic<double> material = odd();
+  material.equilibrium.volumetric_law = tribogel::VolumetricLaw::quadratic;
+  for (auto &branch : material.branches) branch.spring.volumetric_law = tribogel::VolumetricLaw::quadratic;
+  return material;
+}
+
 /// Proper rotation number `seed`.
 inline Matrix3<double> rotation(int seed)
 {

@@ -76,12 +76,14 @@ inline Matrix deviator(const Matrix &A)
 struct Spring {
   std::vector<Complex> moduli, exponents;
   Complex bulk_modulus;
+  bool quadratic = false; ///< volumetric energy K/2 (J - 1)^2 instead of K/4 (J^2 - 2 ln J - 1)
 
   /// From the logarithmic strain tensor.
   Matrix stress(const Matrix &strain) const
   {
     const Complex J = std::exp(strain.trace());
-    Matrix tau = Real(0.5) * bulk_modulus * (J * J - Real(1)) * Matrix::Identity();
+    const Complex mean = quadratic ? (J - Real(1)) * J : Real(0.5) * (J * J - Real(1));
+    Matrix tau = bulk_modulus * mean * Matrix::Identity();
     for (std::size_t r = 0; r < moduli.size(); ++r)
       tau += moduli[r] * deviator(exponential(exponents[r] * deviator(strain)));
     return tau;
@@ -89,7 +91,9 @@ struct Spring {
   Complex energy(const Matrix &strain) const
   {
     const Complex theta = strain.trace();
-    Complex W = Real(0.25) * bulk_modulus * (std::exp(Real(2) * theta) - Real(2) * theta - Real(1));
+    const Complex J = std::exp(theta);
+    Complex W = bulk_modulus * (quadratic ? Real(0.5) * (J - Real(1)) * (J - Real(1))
+                                          : Real(0.25) * (J * J - Real(2) * theta - Real(1)));
     for (std::size_t r = 0; r < moduli.size(); ++r)
       W += moduli[r] / exponents[r] * (exponential(exponents[r] * deviator(strain)).trace() - Real(3));
     return W;
@@ -193,7 +197,10 @@ struct Law {
 
 inline Spring spring(const tribogel::Ogden<double> &o)
 {
-  return {{o.moduli.begin(), o.moduli.end()}, {o.exponents.begin(), o.exponents.end()}, o.bulk_modulus};
+  return {{o.moduli.begin(), o.moduli.end()},
+          {o.exponents.begin(), o.exponents.end()},
+          o.bulk_modulus,
+          o.volumetric_law == tribogel::VolumetricLaw::quadratic};
 }
 
 inline Law law(const tribogel::Viscoelastic<double> &material)

@@ -53,6 +53,27 @@ TEST(Maxwell, solves_the_flow_rule_for_steps_of_any_size)
       }
 }
 
+// Its mean stress falls below J = 1/2: there the flow may have no root, or one that no flow from J = 1 comes to.
+TEST(Maxwell, the_quadratic_volumetric_law_solves_the_flow_rule_or_says_that_it_cannot)
+{
+  const auto branch = samples::quadratic().branches[0];
+  const double K = branch.spring.bulk_modulus;
+  for (double theta : {-0.69, -0.4, -1e-9, 0.0, 1e-9, 0.3, 2.0})
+    for (double step : {0.0, 1e-5, 0.3, 7.0, 1e3, 1e9}) {
+      const auto out = branch.advance(Vector3<double>::Constant(theta / 3), step);
+      ASSERT_EQ(out.status, PointStatus::ok) << theta << " step " << step;
+      const double rate = step / branch.volumetric_viscosity, J = std::exp(out.strain.sum()), mean = K * J * (J - 1);
+      EXPECT_NEAR(out.strain.sum() + rate * mean, theta, 3e-15 * (1 + rate * K) * (1 + std::abs(theta))) << step;
+      EXPECT_NEAR(out.volumetric.mean, mean, 3e-15 * K * J * (1 + J)) << step;
+    }
+  EXPECT_EQ(branch.advance(Vector3<double>::Constant(-0.5), 1e-3).status, PointStatus::ok);
+  EXPECT_EQ(branch.advance(Vector3<double>::Constant(-0.9), 7e2 / K).status, PointStatus::ok); // flows off
+  int refused = 0;
+  for (double step : {1.0, 3.0, 10.0, 30.0, 100.0})
+    refused += branch.advance(Vector3<double>::Constant(-3), step).status == PointStatus::local_newton_failed;
+  EXPECT_GT(refused, 0);
+}
+
 TEST(Maxwell, stress_has_relative_accuracy_when_almost_all_of_it_has_relaxed)
 {
   const auto branch = samples::paper().branches[0];

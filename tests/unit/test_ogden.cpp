@@ -17,13 +17,14 @@ namespace
 using Real = long double;
 
 const std::vector<Ogden<double>> laws = {samples::paper().equilibrium, samples::odd().equilibrium,
-                                         samples::hyperelastic().equilibrium};
+                                         samples::hyperelastic().equilibrium, samples::quadratic().equilibrium};
 
-// tau_a = sum_r G_r (lb_a^alpha_r - 1/3 sum_b lb_b^alpha_r) + K/2 (J^2 - 1), as it is printed, from the stretches.
+// tau_a = sum_r G_r (lb_a^alpha_r - 1/3 sum_b lb_b^alpha_r) + K/2 (J^2 - 1), as it is printed, from the stretches; or
+// + K J (J - 1).
 Real kirchhoff(const Ogden<double> &law, Real la, Real lb, Real lc)
 {
   const Real J = la * lb * lc, s = std::cbrt(J);
-  Real tau = law.bulk_modulus / 2 * (J * J - 1);
+  Real tau = law.bulk_modulus * (law.volumetric_law == VolumetricLaw::quadratic ? J * (J - 1) : (J * J - 1) / 2);
   for (std::size_t r = 0; r < law.moduli.size(); ++r) {
     const Real m = law.exponents[r], a = std::pow(la / s, m), b = std::pow(lb / s, m), c = std::pow(lc / s, m);
     tau += law.moduli[r] * (a - (a + b + c) / 3);
@@ -106,7 +107,8 @@ TEST(Ogden, energy_has_the_printed_value_and_the_stress_is_its_derivative)
   for (const Ogden<double> &law : laws) {
     const Vector3<double> eps(0.31, -0.52, 0.13);
     const double theta = eps.sum(), J = std::exp(theta);
-    double printed = law.bulk_modulus / 4 * (J * J - 2 * theta - 1);
+    const bool quadratic = law.volumetric_law == VolumetricLaw::quadratic;
+    double printed = law.bulk_modulus * (quadratic ? (J - 1) * (J - 1) / 2 : (J * J - 2 * theta - 1) / 4);
     for (std::size_t r = 0; r < law.moduli.size(); ++r)
       for (int a = 0; a < 3; ++a)
         printed += law.moduli[r] / law.exponents[r] * (std::pow(std::exp(eps[a]) / std::cbrt(J), law.exponents[r]) - 1);
@@ -160,6 +162,27 @@ TEST(Ogden, small_strains_lose_no_digits)
       EXPECT_LT((law.deviatoric(e).tau - 2 * G * e).norm(), 2 * G * e.norm() * (6 * strain + 1e-14));
       EXPECT_NEAR(law.volumetric(theta).mean / (K * theta), 1, 2 * strain + 1e-14);
     }
+}
+
+// A cylinder squeezed between lubricated plates: its wall is free. The lateral stretch of the neo-Hookean law with
+// K/2 (J - 1)^2 is the root of G/3 J^(-2/3) (l^2 - a^2) + K J (J - 1), and the pressure follows; the two laws differ.
+TEST(Ogden, compressed_cylinder_of_the_quadratic_law)
+{
+  Ogden<double> law{{0.5}, {2}, 5, VolumetricLaw::quadratic};
+  const Real G = 0.5L, K = 5, axial = 0.7L;
+  const auto lateral_stress = [&](Real l) {
+    const Real J = l * l * axial;
+    return G / 3 * (l * l - axial * axial) / std::cbrt(J * J) + K * J * (J - 1);
+  };
+  const Real l = root(lateral_stress, 0.9L, 1.3L), J = l * l * axial;
+  const Real tau = 2 * G / 3 * (axial * axial - l * l) / std::cbrt(J * J) + K * J * (J - 1);
+  const auto side = static_cast<double>(l), height = static_cast<double>(axial);
+  EXPECT_LT((stress(law, side, side, height, 21) -
+             Vector3<double>(0, 0, static_cast<double>(tau)).asDiagonal().toDenseMatrix())
+                .norm(),
+            1e-14 * law.bulk_modulus);
+  law.volumetric_law = VolumetricLaw::logarithmic;
+  EXPECT_GT(std::abs(stress(law, side, side, height, 21)(0, 0)), 1e-4 * law.bulk_modulus);
 }
 
 TEST(Ogden, paper_parameters_give_their_shear_modulus)

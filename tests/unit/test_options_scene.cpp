@@ -117,6 +117,7 @@ TEST(OptionsScene, each_option_reaches_its_place)
                                           {"-top_ogden_moduli", "-1.5,2.5"},
                                           {"-top_ogden_exponents", "-2,3"},
                                           {"-top_bulk_modulus", "70"},
+                                          {"-bottom_volumetric_law", "quadratic"},
                                           {"-bottom_maxwell_ogden_moduli", "0.6"},
                                           {"-bottom_maxwell_ogden_exponents", "2.2"},
                                           {"-bottom_maxwell_bulk_modulus", "90"},
@@ -146,6 +147,9 @@ TEST(OptionsScene, each_option_reaches_its_place)
   EXPECT_EQ(scene.top.material.equilibrium.exponents, (std::vector<double>{-2, 3}));
   EXPECT_EQ(scene.top.material.equilibrium.bulk_modulus, 70);
   EXPECT_EQ(scene.bottom.material.equilibrium.bulk_modulus, 200);
+  EXPECT_EQ(scene.top.material.equilibrium.volumetric_law, VolumetricLaw::logarithmic);
+  EXPECT_EQ(scene.bottom.material.equilibrium.volumetric_law, VolumetricLaw::quadratic);
+  EXPECT_EQ(scene.bottom.material.branches[0].spring.volumetric_law, VolumetricLaw::quadratic);
   EXPECT_EQ(scene.bottom.material.branches[0].spring.moduli, std::vector<double>{0.6});
   EXPECT_EQ(scene.bottom.material.branches[0].spring.exponents, std::vector<double>{2.2});
   EXPECT_EQ(scene.bottom.material.branches[0].spring.bulk_modulus, 90);
@@ -264,6 +268,7 @@ TEST(OptionsScene, refuses_unknown_words)
   expect_refused("-contact_integration", "elements");
   expect_refused("-maxwell_integrator", "bdf2");
   expect_refused("-time_tolerance", "0");
+  expect_refused("-top_volumetric_law", "printed");
   expect_refused("-friction_law", "polynomal");
   EXPECT_TRUE(contains(refusal({{"-friction_law", "polynomal"}}), "did you mean polynomial?"));
 }

@@ -24,7 +24,8 @@ namespace
 
 const double infinity = std::numeric_limits<double>::infinity();
 
-const std::vector<Viscoelastic<double>> materials = {samples::paper(), samples::odd(), samples::hyperelastic()};
+const std::vector<Viscoelastic<double>> materials = {samples::paper(), samples::odd(), samples::hyperelastic(),
+                                                     samples::quadratic()};
 
 template <class A, class B> double difference(const A &a, const B &b)
 {

@@ -106,13 +106,16 @@ template <class T> BranchStep<T> MaxwellBranch<T>::advance(const Vector3<T> &tri
 }
 
 /// theta + rate mean(theta) = trial. The start solves it with the stiffness at theta = 0; as the mean stress is convex
-/// in theta, it lies beyond the root and Newton's method comes down monotonically.
+/// in theta, it lies beyond the root and Newton's method comes down monotonically. The quadratic law is convex for
+/// J > 1/4 only and falls below J = 1/2: where the left side does not grow, there is no root to be trusted.
 template <class T> bool MaxwellBranch<T>::solve_volumetric(const T &trial, const T &rate, T &theta) const
 {
   double t = value(trial) / (1 + value(rate) * value(spring.bulk_modulus)), size = 1;
   for (int i = 0; i < max_iterations && size > quadratic; ++i) {
     const VolumetricStress<double> stress = spring.volumetric(t);
-    const double change = (t - value(trial) + value(rate) * stress.mean) / (1 + value(rate) * stress.bulk);
+    const double slope = 1 + value(rate) * stress.bulk;
+    if (!(slope > 0)) return false;
+    const double change = (t - value(trial) + value(rate) * stress.mean) / slope;
     t -= change;
     size = std::abs(change) / (1 + std::abs(t));
   }

@@ -28,17 +28,23 @@ template <class S> struct VolumetricStress {
   S bulk = 0; ///< d mean/d theta [MPa]
 };
 
+/// The volumetric energy: K/4 (J^2 - 2 ln J - 1), the paper's, or K/2 (J - 1)^2, that of many other programs. The
+/// latter's mean Kirchhoff stress has a minimum at J = 1/2 and vanishes at J = 0.
+enum class VolumetricLaw { logarithmic, quadratic };
+
 /// Ogden energy with any number of terms and a volumetric part, the paper's (3.6) and (3.7). With the principal
 /// logarithmic strains eps_a = ln lambda_a, theta = ln J = sum eps_a and e_a = eps_a - theta/3 it is, per reference
 /// volume,
 ///
 ///   W = sum_r G_r/alpha_r sum_a (exp(alpha_r e_a) - 1) + K/4 (J^2 - 2 ln J - 1)        THEORY (1.4)
 ///
+/// or with K/2 (J - 1)^2 as its volumetric part, THEORY (1.8a).
 /// T is the scalar of the parameters, double or Dual<N>. Exponents are not zero; a modulus may have any sign.
 template <class T> struct Ogden {
   std::vector<T> moduli;    ///< G_r [MPa]
   std::vector<T> exponents; ///< alpha_r, as many
   T bulk_modulus;           ///< K [MPa]
+  VolumetricLaw volumetric_law = VolumetricLaw::logarithmic;
 
   /// At small strain [MPa].
   T shear_modulus() const
@@ -51,7 +57,7 @@ template <class T> struct Ogden {
   template <class U> Ogden<U> cast() const
   {
     return {std::vector<U>(moduli.begin(), moduli.end()), std::vector<U>(exponents.begin(), exponents.end()),
-            U(bulk_modulus)};
+            U(bulk_modulus), volumetric_law};
   }
 
   /// From the deviatoric principal strains. The stress is built from the secants, so that it keeps its relative
@@ -82,7 +88,12 @@ template <class T> struct Ogden {
   template <class S> VolumetricStress<S> volumetric(const S &theta) const
   {
     using std::expm1;
-    const S K = as_scalar<S>(bulk_modulus), excess = expm1(2 * theta); // J^2 - 1
+    const S K = as_scalar<S>(bulk_modulus);
+    if (volumetric_law == VolumetricLaw::quadratic) {
+      const S growth = expm1(theta), J = 1 + growth;
+      return {K * J * growth, K * J * (J + growth)};
+    }
+    const S excess = expm1(2 * theta); // J^2 - 1
     return {0.5 * K * excess, K * (1 + excess)};
   }
 
@@ -90,10 +101,19 @@ template <class T> struct Ogden {
   /// strains: the terms linear in the strain, which cancel, are left out.
   T energy(const Vector3<T> &e, const T &theta) const
   {
-    T W = 0.25 * bulk_modulus * exp_minus_tangent(T(2 * theta));
+    T W = volumetric_energy(theta);
     for (std::size_t r = 0; r < moduli.size(); ++r)
       for (int a = 0; a < 3; ++a) W += moduli[r] / exponents[r] * exp_minus_tangent(T(exponents[r] * e[a]));
     return W;
+  }
+
+  /// U of theta = ln J [MPa].
+  T volumetric_energy(const T &theta) const
+  {
+    using std::expm1;
+    if (volumetric_law == VolumetricLaw::logarithmic) return 0.25 * bulk_modulus * exp_minus_tangent(T(2 * theta));
+    const T growth = expm1(theta); // J - 1
+    return 0.5 * bulk_modulus * growth * growth;
   }
 
   /// e_a - e_b by pair_index.
