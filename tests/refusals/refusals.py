@@ -186,7 +186,8 @@ def prepare(directory):
 
 def prepare_meshes(directory):
     """A mesh file, and ways to spoil it: 27 nodes of the bottom specimen, 27 of the top one, 9 a layer."""
-    made = subprocess.run([TOOLS / "specimen-mesh", "square", "--elements", "1"], capture_output=True, text=True, check=True)
+    made = subprocess.run([TOOLS / "specimen-mesh", "square", "--elements", "1", "--bottom-radius", "14"],
+                          capture_output=True, text=True, check=True)
     good = made.stdout
     head, tail = good.index("$Nodes\n54\n") + 10, good.index("$EndNodes")
 

@@ -37,94 +37,117 @@ std::vector<double> doubling(double L, double first)
   return points;
 }
 
-/// A disc as O-grid in a cylinder: `around` cells about the axis (a multiple of 8). Cells are of equal size along the
-/// angle, so everything but the inner square is polar. The upper face within a is the upper plate's; planes of symmetry
-/// are held if `symmetric`.
-SerialMesh punched(double L, double finest, int around, bool symmetric)
-{
-  const int k = around / 8, n = 2 * k;
-  constexpr double square = 0.45;
-  std::vector<double> r; // of the rings, from the square on
-  const std::vector<double> inside = doubling(a * (1 - square), finest), outside = doubling(L - a, finest);
-  for (auto d = inside.rbegin(); d != inside.rend(); ++d) r.push_back(a - *d);
-  for (std::size_t i = 1; i < outside.size(); ++i) r.push_back(a + outside[i]);
-  std::vector<double> z = doubling(L, finest);
+/// Half the edge of the inner square over a.
+constexpr double square = 0.45;
 
-  SerialMesh mesh;
-  mesh.dim = 3;
-  std::vector<std::array<double, 2>> plane;
-  std::vector<std::array<int, 4>> cells;
-  const auto centre = [n](int i, int j) { return i + j * (n + 1); };
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) {
-      const double x = static_cast<double>(i) / k - 1, y = static_cast<double>(j) / k - 1;
-      const double s = std::max(std::abs(x), std::abs(y)), R = std::hypot(x, y); // squares to circles
-      plane.push_back({s > 0 ? square * a * s * x / R : 0, s > 0 ? square * a * s * y / R : 0});
-    }
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i)
-      cells.push_back({centre(i, j), centre(i + 1, j), centre(i, j + 1), centre(i + 1, j + 1)});
-  std::vector<int> ring;
-  for (int i = 0; i < n; ++i) ring.push_back(centre(n, i));
-  for (int i = 0; i < n; ++i) ring.push_back(centre(n - i, n));
-  for (int i = 0; i < n; ++i) ring.push_back(centre(0, n - i));
-  for (int i = 0; i < n; ++i) ring.push_back(centre(i, 0));
-  for (std::size_t level = 1; level < r.size(); ++level) {
+double radius(const std::array<double, 3> &X)
+{
+  return std::hypot(X[0], X[1]);
+}
+
+/// A disc of `around` cells about the axis, a multiple of 8; cells in lexicographic order of vertices. All but the
+/// inner square is polar.
+struct Plane {
+  std::vector<std::array<double, 2>> vertex;
+  std::vector<std::array<int, 4>> cell;
+
+  Plane(double L, double finest, int around) : k(around / 8), n(2 * k)
+  {
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i) {
+        const double x = static_cast<double>(i) / k - 1, y = static_cast<double>(j) / k - 1;
+        const double s = std::max(std::abs(x), std::abs(y)), R = std::hypot(x, y); // squares to circles
+        vertex.push_back({s > 0 ? square * a * s * x / R : 0, s > 0 ? square * a * s * y / R : 0});
+      }
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) cell.push_back({at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)});
+    std::vector<int> ring;
+    for (int i = 0; i < n; ++i) ring.push_back(at(n, i));
+    for (int i = 0; i < n; ++i) ring.push_back(at(n - i, n));
+    for (int i = 0; i < n; ++i) ring.push_back(at(0, n - i));
+    for (int i = 0; i < n; ++i) ring.push_back(at(i, 0));
+    std::vector<double> r; // beyond the square
+    const std::vector<double> inside = doubling(a * (1 - square), finest), outside = doubling(L - a, finest);
+    for (auto d = inside.rbegin() + 1; d != inside.rend(); ++d) r.push_back(a - *d);
+    for (std::size_t i = 1; i < outside.size(); ++i) r.push_back(a + outside[i]);
+    for (const double R : r) add_ring(R, ring);
+  }
+
+private:
+  int at(int i, int j) const { return i + j * (n + 1); }
+
+  void add_ring(double R, std::vector<int> &ring)
+  {
     std::vector<int> next;
     for (const int from : ring) {
-      const double angle = std::atan2(plane[from][1], plane[from][0]);
-      next.push_back(static_cast<int>(plane.size()));
-      plane.push_back({r[level] * std::cos(angle), r[level] * std::sin(angle)});
+      const double angle = std::atan2(vertex[from][1], vertex[from][0]);
+      next.push_back(static_cast<int>(vertex.size()));
+      vertex.push_back({R * std::cos(angle), R * std::sin(angle)});
     }
-    for (int p = 0; p < around; ++p) {
-      const int q = (p + 1) % around;
-      cells.push_back({ring[p], next[p], ring[q], next[q]});
+    for (std::size_t p = 0; p < ring.size(); ++p) {
+      const std::size_t q = (p + 1) % ring.size();
+      cell.push_back({ring[p], next[p], ring[q], next[q]});
     }
     ring = next;
   }
 
-  const int stride = static_cast<int>(plane.size()), layers = static_cast<int>(z.size()) - 1;
+  int k, n;
+};
+
+/// The middle of an edge, a face or a cell beyond the square: on its circle.
+void place_middle(const std::vector<int> &vertices, SerialMesh &mesh)
+{
+  double R = 0, x = 0, y = 0, Z = 0;
+  for (const int v : vertices) {
+    const auto &X = mesh.vertex[v];
+    if (radius(X) < square * a * (1 - 1e-9)) return;
+    R += radius(X) / static_cast<double>(vertices.size());
+    Z += X[2] / static_cast<double>(vertices.size());
+    x += X[0] / radius(X);
+    y += X[1] / radius(X);
+  }
+  mesh.middle[middle_key(vertices)] = {R * x / std::hypot(x, y), R * y / std::hypot(x, y), Z};
+}
+
+void place_middles(const std::array<int, 8> &c, SerialMesh &mesh)
+{
+  constexpr int edge[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
+                               {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+  for (const auto &e : edge) place_middle({c[e[0]], c[e[1]]}, mesh);
+  place_middle({c.begin(), c.end()}, mesh);
+}
+
+/// A cylinder of radius and height L below z = 0. The upper face within a is the upper plate's; planes of symmetry are
+/// held if `symmetric`.
+SerialMesh punched(double L, double finest, int around, bool symmetric)
+{
+  constexpr int face[6][4] = {{0, 2, 4, 6}, {1, 3, 5, 7}, {0, 1, 4, 5}, {2, 3, 6, 7}, {0, 1, 2, 3}, {4, 5, 6, 7}};
+  const Plane plane(L, finest, around);
+  const std::vector<double> z = doubling(L, finest);
+  const int stride = static_cast<int>(plane.vertex.size()), layers = static_cast<int>(z.size()) - 1;
+  SerialMesh mesh;
+  mesh.dim = 3;
   for (int l = 0; l <= layers; ++l)
-    for (const auto &x : plane) mesh.vertex.push_back({x[0], x[1], -z[layers - l]});
-  const auto radius = [](const std::array<double, 3> &X) { return std::hypot(X[0], X[1]); };
-  const auto polar_middle = [&](const std::vector<int> &vertices) { // of vertices beyond the square
-    double R = 0, x = 0, y = 0, Z = 0;
-    for (const int v : vertices) {
-      const auto &X = mesh.vertex[v];
-      if (radius(X) < square * a * (1 - 1e-9)) return;
-      R += radius(X) / static_cast<double>(vertices.size());
-      Z += X[2] / static_cast<double>(vertices.size());
-      x += X[0] / radius(X);
-      y += X[1] / radius(X);
-    }
-    mesh.middle[middle_key(vertices)] = {R * x / std::hypot(x, y), R * y / std::hypot(x, y), Z};
-  };
+    for (const auto &x : plane.vertex) mesh.vertex.push_back({x[0], x[1], -z[layers - l]});
   for (int l = 0; l < layers; ++l)
-    for (const auto &quadrilateral : cells) {
-      SerialMesh::Cell cell{{}, bottom_body, 0};
-      for (int v = 0; v < 4; ++v) {
-        cell.vertex[v] = l * stride + quadrilateral[v];
-        cell.vertex[v + 4] = cell.vertex[v] + stride;
-      }
-      mesh.cell.push_back(cell);
-      const auto &c = cell.vertex;
-      double outermost = 0;
-      for (const int v : c) outermost = std::max(outermost, radius(mesh.vertex[v]));
-      if (l == 0) mesh.boundary.push_back({{c[0], c[1], c[2], c[3]}, Side::bottom_plate});
-      if (l == layers - 1 && outermost < a * (1 + 1e-9))
-        mesh.boundary.push_back({{c[4], c[5], c[6], c[7]}, Side::top_plate});
-      constexpr int face[6][4] = {{0, 2, 4, 6}, {1, 3, 5, 7}, {0, 1, 4, 5}, {2, 3, 6, 7}, {0, 1, 2, 3}, {4, 5, 6, 7}};
-      constexpr int edge[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
-                                   {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
-      for (const auto &f : face) {
-        const std::array<int, 4> at{c[f[0]], c[f[1]], c[f[2]], c[f[3]]};
+    for (const auto &quadrilateral : plane.cell) {
+      std::array<int, 8> c;
+      for (int v = 0; v < 8; ++v) c[v] = (l + v / 4) * stride + quadrilateral[v % 4];
+      mesh.cell.push_back({c, bottom_body, 0});
+      place_middles(c, mesh);
+      for (int f = 0; f < 6; ++f) {
+        const std::array<int, 4> at{c[face[f][0]], c[face[f][1]], c[face[f][2]], c[face[f][3]]};
+        const auto all = [&](const auto &holds) {
+          return std::all_of(at.begin(), at.end(), [&](int v) { return holds(mesh.vertex[v]); });
+        };
+        place_middle({at.begin(), at.end()}, mesh);
+        if (f == 4 && l == 0) mesh.boundary.push_back({at, Side::bottom_plate});
+        if (f == 5 && l == layers - 1 && all([](const auto &X) { return radius(X) < a * (1 + 1e-9); }))
+          mesh.boundary.push_back({at, Side::top_plate});
         for (int j = 0; j < 2; ++j)
-          if (symmetric && std::all_of(at.begin(), at.end(), [&](int v) { return std::abs(mesh.vertex[v][j]) < 1e-9; }))
+          if (symmetric && all([j](const auto &X) { return std::abs(X[j]) < 1e-9; }))
             mesh.boundary.push_back({at, j == 0 ? Side::fixed_x : Side::fixed_y});
-        polar_middle({at.begin(), at.end()});
       }
-      for (const auto &e : edge) polar_middle({c[e[0]], c[e[1]]});
-      polar_middle({c.begin(), c.end()});
     }
   return mesh;
 }
