@@ -59,7 +59,7 @@ PetscErrorCode Run(const CommandLine &line, int &status)
   PetscCall(ReadScene(input));
   PetscCall(MakeMesh(comm, input, mesh));
   if (continues) expect_unchanged(input, stored.options);
-  PetscCall(problem.SetUp(comm, input.scene, mesh));
+  PetscCall(problem.SetUp(comm, input.scene, std::move(mesh)));
   PetscCall(problem.ProbeSolver());
   PetscCall(TakePetscHelp(petsc_help));
   if (line.help == HelpRequest::petsc) {

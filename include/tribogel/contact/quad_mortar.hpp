@@ -31,6 +31,9 @@ template <int order> inline constexpr int outline_chords = order;
 /// points far from a distorted facet have no projection.
 inline constexpr double outline_margin = 1.1;
 
+/// And at most so many times, however the facet is distorted.
+inline constexpr double widest_outline = 4;
+
 /// Gauss points on a triangle as barycentric weights (product rule on the collapsed square); weights add up to 1. Exact
 /// to degree 2 n - 2.
 template <int n> struct TriangleRule {
@@ -160,11 +163,23 @@ private:
       }
   }
 
+  /// So large that the facet is inside. In steps, since between them the cut depends on the facet through the frame
+  /// only.
+  double margin_around(const QuadFrame<order> &frame) const
+  {
+    double wider = 1;
+    for (const auto &side : measure.outline)
+      for (const auto &x : pair.x)
+        while (side.normal.dot(frame(x)) > wider * side.distance && wider < widest_outline) wider *= outline_margin;
+    return wider * outline_margin;
+  }
+
   void cut_to_neighbourhood(const QuadFrame<order> &frame)
   {
+    const double margin = margin_around(frame);
     for (const auto &side : measure.outline)
       cut(
-          places, [&](const Place &p) { return outline_margin * side.distance - side.normal.dot(frame(p.at)); },
+          places, [&](const Place &p) { return margin * side.distance - side.normal.dot(frame(p.at)); },
           [&](const Place &p) {
             Row d = -side.normal.transpose() * frame.L * p.d;
             for (int a = 0; a < nodes; ++a)
