@@ -46,7 +46,7 @@ def volume(body):
 
 class DiscMesh(unittest.TestCase):
     def test_as_many_unknowns_as_the_program(self):
-        for order, elements in ((1, 1), (1, 4), (1, 5), (2, 2), (2, 3)):
+        for order, elements in ((1, 2), (1, 4), (1, 5), (2, 2), (2, 3)):
             with self.subTest(order=order, elements=elements), tempfile.TemporaryDirectory() as directory:
                 subprocess.run([PROGRAM, "-options_file", ROOT / "options" / "solid" / "two_cylinders.opts", "-model", "solid",
                                 "-element_order", str(order), "-elements_radial", str(elements), "-friction_law", "none",

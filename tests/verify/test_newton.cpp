@@ -123,23 +123,6 @@ TEST(newton, IsQuadraticOnThePaperSchedule)
   }
 }
 
-/// Pressed, then turned: between two clippings of the same cells the mortar integrals are smooth.
-TEST(newton, IsQuadraticInSpace)
-{
-  const SolverOptions options({{"-snes_rtol", "1e-14"}, {"-ts_atol", "1e-2"}});
-  for (int order : {1, 2}) {
-    Scene scene = paper_scene(order == 1 ? 3 : 2, order);
-    scene.model = Model::solid;
-    scene.mesh.grading = 1;
-    scene.plate_contact = false;
-    scene.schedule = schedule_from_rates({27, 40}, {0.79, 0.79}, {0, 0.1});
-    Outcome outcome;
-    watch(scene, outcome);
-    EXPECT_GE(outcome.counted, 4u) << "order " << order;
-    EXPECT_LE(outcome.spread, 10) << "order " << order;
-  }
-}
-
 TEST(newton, IsSeenToBeLinearWithAnOldMatrix)
 {
   const SolverOptions options(to_the_floor);
