@@ -257,9 +257,29 @@ OptionGroup schedule_group()
         .range = {0, 100}}}};
 }
 
+/// Time belongs to the same group.
+std::vector<Option> time_options()
+{
+  return {{.name = "-maxwell_integrator",
+           .kind = OptionKind::choice,
+           .fallback = "sdirk2",
+           .meaning = "time rule of the Maxwell branches and of the sliding velocity, unconditionally stable:"
+                      " exponential_euler: first order; sdirk2: second order, two solves a step",
+           .source = "own",
+           .choices = {"exponential_euler", "sdirk2"}},
+          {.name = "-time_tolerance",
+           .kind = OptionKind::real,
+           .fallback = "0.1",
+           .unit = "%",
+           .meaning = "error in time that the steps follow, per cent of the largest N and T so far:"
+                      " exponential_euler: of a step; sdirk2: of N(t) and T(t), and of the internal variables",
+           .source = "own",
+           .range = positive}};
+}
+
 OptionGroup discretisation_group()
 {
-  return {
+  OptionGroup group{
       "Discretisation",
       {{.name = "-element_order",
         .kind = OptionKind::integer,
@@ -304,22 +324,9 @@ OptionGroup discretisation_group()
         .meaning = "segments: over the exact intervals or polygons where a slave and a master facet overlap; elements:"
                    " at Gauss points of each slave facet, cheaper and less exact (-model solid)",
         .source = "own",
-        .choices = {"segments", "elements"}},
-       {.name = "-maxwell_integrator",
-        .kind = OptionKind::choice,
-        .fallback = "sdirk2",
-        .meaning = "time rule of the Maxwell branches and of the sliding velocity, unconditionally stable:"
-                   " exponential_euler: first order; sdirk2: second order, two solves a step",
-        .source = "own",
-        .choices = {"exponential_euler", "sdirk2"}},
-       {.name = "-time_tolerance",
-        .kind = OptionKind::real,
-        .fallback = "0.1",
-        .unit = "%",
-        .meaning = "error in time that the steps follow, per cent of the largest N and T so far:"
-                   " exponential_euler: of a step; sdirk2: of N(t) and T(t), and of the internal variables",
-        .source = "own",
-        .range = positive}}};
+        .choices = {"segments", "elements"}}}};
+  for (const Option &option : time_options()) group.options.push_back(option);
+  return group;
 }
 
 OptionGroup output_group()

@@ -44,7 +44,7 @@ std::vector<std::string> split(const std::string &text)
 bool same(const std::string &said, const std::string &value)
 {
   const std::string word = said.substr(0, said.find_last_not_of(".,;:") + 1);
-  if (word == value) return true;
+  if (word == value || said == value) return true;
   char *end_of_word = nullptr, *end_of_value = nullptr;
   const double x = std::strtod(word.c_str(), &end_of_word), y = std::strtod(value.c_str(), &end_of_value);
   return x == y && end_of_word != word.c_str() && *end_of_word == 0 && *end_of_value == 0;
