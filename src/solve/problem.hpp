@@ -157,7 +157,8 @@ private:
   PetscErrorCode MeasurePlate();
   PetscErrorCode SetUpTs();
   PetscErrorCode SetUpLinearSolver(KSP ksp);
-  PetscReal LongestStep() const; ///< of the phase [s]
+  PetscReal ShortestStep() const; ///< of the phase [s]
+  PetscReal LongestStep() const;  ///< of the phase [s]
   PetscErrorCode RunPhase(int k);
   PetscErrorCode Notify(const std::string &text);
   PetscErrorCode CountFailures();

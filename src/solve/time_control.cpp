@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <sstream>
 
@@ -255,12 +256,18 @@ PetscErrorCode Problem::FirstStep(PetscReal &step, PetscReal &unresolved) const
   for (const Specimen *gel : {&scene.bottom, scene.has_top ? &scene.top : &scene.bottom})
     for (const auto &branch : gel->material.branches) tau = std::min(tau, shape_relaxation_time(branch));
   const double constant = scene.time.rule == TimeRule::sdirk2 ? sdirk2::error_constant : 0.5;
-  unresolved = step = std::min(std::sqrt(fraction / constant) * tau, phase().duration());
+  unresolved = step = std::min(std::max(std::sqrt(fraction / constant) * tau, ShortestStep()), phase().duration());
   if (given_first_step > 0) {
-    step = std::min(given_first_step, phase().duration());
+    step = std::min(std::max(given_first_step, ShortestStep()), phase().duration());
     unresolved = std::min(step, unresolved);
   }
   PetscFunctionReturn(0);
+}
+
+/// Added to any time of the phase it makes another: with less a run would never end.
+PetscReal Problem::ShortestStep() const
+{
+  return 16 * std::numeric_limits<double>::epsilon() * phase().end_time;
 }
 
 /// Loads that turn through the gels come back after a revolution: a step of much of one would not see that they change.
@@ -281,7 +288,7 @@ PetscErrorCode Problem::RunPhase(int k)
   if (!goes_on) state.steps_in_phase = 0;
   PetscCall(TSGetAdapt(ts, &adapt));
   PetscCall(FirstStep(step, unresolved));
-  PetscCall(TSAdaptSetStepLimits(adapt, smallest_of_first * step, LongestStep()));
+  PetscCall(TSAdaptSetStepLimits(adapt, std::max(smallest_of_first * step, ShortestStep()), LongestStep()));
   PetscCall(TSSetTime(ts, goes_on ? state.time : phase().start_time));
   PetscCall(TSSetMaxTime(ts, phase().end_time));
   PetscCall(TSSetTimeStep(ts, goes_on ? state.next_step : std::min(step, LongestStep())));
