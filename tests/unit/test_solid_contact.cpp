@@ -26,6 +26,19 @@ Eigen::VectorXd nodal_areas(const QuadReference &surface, int order)
   return area;
 }
 
+/// Along z on each master node.
+Eigen::VectorXd axial_forces(const SolidContact &contact, const SolidScene &scene)
+{
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(scene.masters());
+  for (int a = 0; a < scene.slaves(); ++a) {
+    NodeBlock block;
+    contact.node(a, viscous, block);
+    for (std::size_t k = 0; k < block.master_nodes.size(); ++k)
+      force[block.master_nodes[k]] += block.residual[3 + 3 * static_cast<Eigen::Index>(k) + 2];
+  }
+  return force;
+}
+
 TEST(SolidContact, RowSumsOfTheMortarMatrixAreItsDiagonal)
 {
   for (const auto &[order, exact_cells] : {std::pair{1, true}, {1, false}, {2, true}, {2, false}}) {
@@ -57,13 +70,7 @@ TEST(SolidContact, UniformPressurePassesThePatchTest)
       SolidContact contact(scene.geometry);
       contact.update(scene.state, contact.candidate_pairs(scene.state, 0), false);
       // The extension beyond the edges carries force too: compare the inner node only, all of whose facets are inside.
-      Eigen::VectorXd force = Eigen::VectorXd::Zero(scene.masters());
-      for (int a = 0; a < scene.slaves(); ++a) {
-        NodeBlock block;
-        contact.node(a, viscous, block);
-        for (std::size_t k = 0; k < block.master_nodes.size(); ++k)
-          force[block.master_nodes[k]] += block.residual[3 + 3 * static_cast<Eigen::Index>(k) + 2];
-      }
+      const Eigen::VectorXd force = axial_forces(contact, scene);
       const Eigen::VectorXd area = nodal_areas(scene.geometry.master, order);
       int compared = 0;
       for (int m = 0; m < scene.masters(); ++m) {
@@ -91,13 +98,7 @@ TEST(SolidContact, AtElementsUniformPressureIsExactOnMatchingFacetsOnly)
       for (auto &lambda : scene.state.multiplier) lambda = {0, 0, 1};
       SolidContact contact(scene.geometry);
       ASSERT_EQ(contact.update(scene.state, contact.candidate_pairs(scene.state, 0), false).status, MortarStatus::ok);
-      Eigen::VectorXd force = Eigen::VectorXd::Zero(scene.masters());
-      for (int a = 0; a < scene.slaves(); ++a) {
-        NodeBlock block;
-        contact.node(a, viscous, block);
-        for (std::size_t k = 0; k < block.master_nodes.size(); ++k)
-          force[block.master_nodes[k]] += block.residual[3 + 3 * static_cast<Eigen::Index>(k) + 2];
-      }
+      const Eigen::VectorXd force = axial_forces(contact, scene);
       const Eigen::VectorXd area = nodal_areas(scene.geometry.master, order);
       const double facet = 4.0 / 16, error = (force - area).lpNorm<Eigen::Infinity>() / facet;
       std::printf("order %d, %s facets: largest error of a nodal force %.2g of a facet's\n", order,
