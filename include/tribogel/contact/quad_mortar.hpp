@@ -32,7 +32,7 @@ template <int order> inline constexpr int outline_chords = order;
 inline constexpr double outline_margin = 1.1;
 
 /// And at most so many times, however the facet is distorted.
-inline constexpr double widest_outline = 4;
+inline constexpr double widest_outline = 6;
 
 /// Gauss points on a triangle as barycentric weights (product rule on the collapsed square); weights add up to 1. Exact
 /// to degree 2 n - 2.
@@ -163,14 +163,19 @@ private:
       }
   }
 
-  /// So large that the facet is inside. In steps, since between them the cut depends on the facet through the frame
-  /// only.
+  /// So large that the facet is inside, and what its normals meet on the master. In steps, since between them the cut
+  /// depends on the facet through the frame only.
   double margin_around(const QuadFrame<order> &frame) const
   {
     double wider = 1;
-    for (const auto &side : measure.outline)
-      for (const auto &x : pair.x)
-        while (side.normal.dot(frame(x)) > wider * side.distance && wider < widest_outline) wider *= outline_margin;
+    const QuadFrame<order> master(pair.y);
+    const Vector3<double> m = master.A.col(0).cross(master.A.col(1));
+    for (int a = 0; a < nodes; ++a) {
+      const Vector3<double> met = pair.x[a] + way_to_plane(pair.x[a], pair.n[a], master.centre, m) * pair.n[a];
+      for (const auto &side : measure.outline)
+        for (const auto &x : {pair.x[a], met})
+          while (side.normal.dot(frame(x)) > wider * side.distance && wider < widest_outline) wider *= outline_margin;
+    }
     return wider * outline_margin;
   }
 
