@@ -254,15 +254,19 @@ void SolidContact::integrate(int f, std::span<const std::pair<int, int>> pairs, 
     facets[f].push_back({master, part.M, std::move(part.dM)});
   };
   std::vector<QuadPair<order>> all;
+  double width = 0;
   for (const auto &[slave, master] : pairs) {
     pair.y = geometry.master_surface.on_facet<order>(master, placed.y);
     pair.on_edge = geometry.master_surface.on_edge[master];
-    if (geometry.exact_cells)
-      keep(master, quad_pair_mortar<order>(measure, pair, derivatives));
-    else
-      all.push_back(pair);
+    all.push_back(pair);
+    width = std::max(width, outline_width<order>(measure, pair));
   }
-  if (!geometry.exact_cells) {
+  if (geometry.exact_cells) {
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      all[k].neighbourhood = width;
+      keep(pairs[k].second, quad_pair_mortar<order>(measure, all[k], derivatives));
+    }
+  } else {
     auto parts = quad_element_mortar<order>(measure, all, derivatives);
     for (std::size_t k = 0; k < pairs.size(); ++k) keep(pairs[k].second, std::move(parts[k]));
   }
