@@ -4,8 +4,6 @@
 #include "probe.hpp"
 #include "solver_options.hpp"
 
-#include "support/petsc_session.hpp"
-
 namespace tribogel::test
 {
 
@@ -71,7 +69,8 @@ TEST(companions, ThatFailSaySo)
   EXPECT_NE(companion.failure.find("no step from"), std::string::npos) << companion.failure;
   EXPECT_FALSE(stopped);
 
-  const SolverOptions wrong({{"-ts_max_time", "3"}}); // refused by PETSc's way of errors
+  const OptionList refused{{"-ts_max_time", "3"}}; // in PETSc's way of errors
+  const SolverOptions options(refused);
   testing::internal::CaptureStderr();
   ASSERT_EQ(RunCompanion(PETSC_COMM_WORLD, short_scene(4, 1), nullptr, never, companion, stopped), 0);
   testing::internal::GetCapturedStderr();
@@ -93,6 +92,40 @@ TEST(companions, AreStoppedOnRequest)
   EXPECT_TRUE(stopped);
   EXPECT_EQ(asked, 5);
   EXPECT_EQ(companion.failure, "enough");
+}
+
+/// The limits of N and T per rate are those of tests/README.md, Limits of the mesh. Fails with meshes of 2 and 4 times
+/// the edges alone (order 2, 10 elements).
+TEST(companions, ErrorsOfTheRheometerAreWithinTheEstimate)
+{
+  constexpr double force = 290.4435, torque = 11.4421;
+  const std::array<int, 2> meshes[] = {{6, 2}, {8, 2}, {10, 2}, {8, 1}, {14, 1}}; // elements, order
+  for (const auto &[elements, order] : meshes) {
+    Scene scene = paper_scene(elements, order);
+    scene.schedule = schedule_from_rates({27}, {0.79}, {0.01});
+    scene.schedule_kind = ScheduleKind::steady;
+    scene.time.rule = TimeRule::exponential_euler;
+    scene.mesh.grading = MeshParameters{}.grading;
+    Problem problem;
+    Recorder recorder("");
+    run(scene, problem, recorder);
+    ErrorEstimate estimate;
+    int ended = 0;
+    ASSERT_EQ(
+        EstimateErrors(
+            PETSC_COMM_WORLD, scene, nullptr, recorder, never, [&ended](const Companion &) { ++ended; }, estimate),
+        0);
+    EXPECT_EQ(ended, static_cast<int>(estimate.companions.size()));
+    ASSERT_EQ(estimate.phases.size(), 1u);
+    const Measurement &m = recorder.phases[0].measurement;
+    const double errors[] = {m.normal_force - force, m.torque - 0.01 * torque};
+    for (std::size_t load = 0; load < 2; ++load) {
+      const double estimated = estimate.phases[0][load].mesh.error;
+      std::printf("order %d, %d elements: error %.2e, estimated %.2e\n", order, elements, errors[load], estimated);
+      EXPECT_GT(estimated, std::abs(errors[load]));
+      EXPECT_LT(estimated, 20 * std::abs(errors[load]));
+    }
+  }
 }
 
 } // namespace tribogel::test
