@@ -165,18 +165,6 @@ const std::vector<bool> &ContactModel::touching() const
   return is->touching;
 }
 
-std::vector<bool> ContactModel::rolling(const ContactState<double> &state) const
-{
-  if (!is->in_half_plane()) return std::get<SolidContact>(is->contact).rolling_facets(state, is->on_crease);
-  const ContactGeometry &geometry = std::get<AxisymmetricContact>(is->contact).reference();
-  const LineChain whole(geometry.slave.facets, is->curve.order + 1, static_cast<int>(geometry.slave.X.size()));
-  const int count = rolling_facets(whole, positions(geometry.slave, state.slave), geometry.master_chain,
-                                   positions(geometry.master, state.master));
-  std::vector<bool> facets(is->touching.size(), false);
-  std::fill_n(facets.begin(), count, true);
-  return facets;
-}
-
 std::vector<bool> ContactModel::touching_without(const std::vector<int> &failed) const
 {
   std::vector<bool> facets = is->touching;
@@ -200,6 +188,24 @@ void ContactModel::touch(std::vector<bool> facets)
     is->solid.left_out = is->touching;
     is->solid.left_out.flip();
     is->contact = SolidContact(SolidGeometry(old.slave, old.master, is->solid));
+  }
+}
+
+void ContactModel::roll(const ContactState<double> &state)
+{
+  if (is->in_half_plane()) {
+    const ContactGeometry &geometry = std::get<AxisymmetricContact>(is->contact).reference();
+    const LineChain whole(geometry.slave.facets, is->curve.order + 1, static_cast<int>(geometry.slave.X.size()));
+    const int count = rolling_facets(whole, positions(geometry.slave, state.slave), geometry.master_chain,
+                                     positions(geometry.master, state.master));
+    std::vector<bool> facets(is->touching.size(), false);
+    std::fill_n(facets.begin(), count, true);
+    touch(std::move(facets));
+  } else {
+    RollingFacets rolling = std::get<SolidContact>(is->contact).rolling_facets(state, is->on_crease);
+    is->solid.neighbourhood = std::move(rolling.neighbourhood);
+    is->touching.clear(); // rebuilt for the neighbourhoods too
+    touch(std::move(rolling.touch));
   }
 }
 

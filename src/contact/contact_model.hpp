@@ -52,14 +52,14 @@ public:
   const std::vector<bool> &on_crease() const;
   const std::vector<bool> &touching() const; ///< facets of a wall that may touch
 
-  /// The facets of a wall that lean over the master at this state and are near it.
-  std::vector<bool> rolling(const ContactState<double> &state) const;
-
   /// Those of the facets that touch now without the ones that failed, and what is cut off from the crease by that.
   std::vector<bool> touching_without(const std::vector<int> &failed) const;
 
   /// Rebuilds the operator for contact of these facets.
   void touch(std::vector<bool> facets);
+
+  /// For contact of the facets of a wall that lean over the master at this state and are near it.
+  void roll(const ContactState<double> &state);
 
 private:
   struct Operators;

@@ -66,7 +66,7 @@ PetscErrorCode GelContact::BeginStep(const PlateFrames &frames, const double *U)
   PetscFunctionBeginUser;
   if (!model->is_wall()) PetscFunctionReturn(0);
   PetscCall(Gather(frames, U, nullptr, 1, state));
-  model->touch(model->rolling(state));
+  model->roll(state);
   for (;;) { // only facets that can be projected now
     const auto nodes = static_cast<int>(slave.node.size());
     const MortarReport report = model->update(state, model->candidate_pairs(state, 0), false, 0, nodes);

@@ -168,7 +168,6 @@ template <int order> void facet_pair(benchmark::State &state, bool with_derivati
     pair.y[a] = {c * x - s * y, s * x + c * y, 0.01 * y * y};
   }
   const auto measure = quad_measure<order>(pair.x);
-  pair.neighbourhood = outline_width<order>(measure, pair);
   for (auto _ : state) benchmark::DoNotOptimize(quad_pair_mortar<order>(measure, pair, with_derivatives));
   set_rate(state, "pairs/s", 1);
 }

@@ -246,4 +246,65 @@ TEST(SolidContact, JacobianIsTheDerivativeInEveryState)
     }
 }
 
+/// What the triangles' rule misses does not depend on where the numbering of the master facet begins, so that it does
+/// not jump when a corner of a cell leaves the slave facet and another one is the first.
+TEST(SolidContact, IntegralsDoNotDependOnWhereAFacetBegins)
+{
+  const auto compare = []<int order>() {
+    const SolidScene scene = general_solid_scene(order, 1, 7);
+    constexpr int nodes = tensor_nodes<2, order>;
+    int compared = 0;
+    for (const auto &slave : scene.geometry.slave.facets)
+      for (const auto &master : scene.geometry.master.facets) {
+        QuadPair<order> pair, turned;
+        QuadPoints<order> X;
+        for (int a = 0; a < nodes; ++a) {
+          const int column = a % (order + 1), row = a / (order + 1);
+          X[a] = scene.geometry.slave.X[slave[a]];
+          turned.x[a] = pair.x[a] = 1.3 * (X[a] + scene.state.slave.u[slave[a]]);
+          turned.n[a] = pair.n[a] = {0.1 * X[a][0], -0.05 * X[a][1], -1};
+          pair.y[a] = scene.geometry.master.X[master[a]];
+          turned.y[row + (order - column) * (order + 1)] = pair.y[a]; // by a quarter
+        }
+        const auto measure = quad_measure<order>(X);
+        const auto M = quad_pair_mortar<order>(measure, pair, false),
+                   other = quad_pair_mortar<order>(measure, turned, false);
+        if (M.covered == 0) continue;
+        ++compared;
+        for (int a = 0; a < nodes; ++a)
+          for (int b = 0; b < nodes; ++b) {
+            const int column = b % (order + 1), row = b / (order + 1);
+            EXPECT_NEAR(M.M(a, b), other.M(a, row + (order - column) * (order + 1)), 1e-14) << order;
+          }
+      }
+    EXPECT_GT(compared, 8);
+  };
+  compare.operator()<1>();
+  compare.operator()<2>();
+}
+
+/// Nothing jumps where a facet, from a state in which the lines of both surfaces coincide, begins to grow or to shrink.
+TEST(SolidContact, NothingJumpsAtTheReferenceState)
+{
+  const auto shape = [](double x, double y) {
+    return Vector3<double>(x + 0.05 * y * y, y + 0.04 * x * y, 0.1 * x * x - 0.05 * x * y);
+  };
+  for (int order : {1, 2}) {
+    const SolidScene rest(quad_grid(2, 2, 1.6, 1.6, order, false, shape), quad_grid(3, 4, 2.4, 3.2, order, true, shape),
+                          order);
+    const auto at = [&](double t) {
+      SolidScene scene = rest;
+      for (int a = 0; a < rest.slaves(); ++a) {
+        scene.state.slave.u[a] = t * rest.geometry.slave.X[a];
+        scene.state.multiplier[a] = {0.2, 0.1 * (a % 3), 1 - 0.1 * (a % 4)};
+      }
+      return scene.residual(viscous, SolidContact(scene.geometry).candidate_pairs(scene.state, 0.3));
+    };
+    const Eigen::VectorXd smaller = at(-1e-13), larger = at(1e-13);
+    const double jump = (larger - smaller).lpNorm<Eigen::Infinity>() / larger.lpNorm<Eigen::Infinity>();
+    std::printf("order %d: %.2g of the largest force\n", order, jump);
+    EXPECT_LT(jump, 1e-11) << "order " << order;
+  }
+}
+
 } // namespace

@@ -105,7 +105,7 @@ TEST(SolidWall, FacetsThatLeanOverTheMasterAndAreNearMayTouch)
     const QuadReference master = plane_master(order);
     const auto rows = [&](const QuadReference &wall) {
       const SolidScene scene(wall, master, order);
-      const auto may = SolidContact(scene.geometry).rolling_facets(scene.state, crease_of(wall));
+      const auto may = SolidContact(scene.geometry).rolling_facets(scene.state, crease_of(wall)).touch;
       const auto count = static_cast<int>(std::count(may.begin(), may.end(), true));
       EXPECT_EQ(count % 3, 0);
       return count / 3;

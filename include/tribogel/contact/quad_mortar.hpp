@@ -7,16 +7,16 @@
 ///
 ///     x(xi) + g n(xi) = y(eta)                                                                   for (xi, g),
 ///
-/// clipped to the square [-1, 1]^2 and cut into triangles with Gauss points, whose eta follows from the same equation
-/// for (eta, g). Master facets that share an outline thus tile the slave's square without gap or overlap, and sum_b
-/// M_ab over all of them is D_a to round-off. A quadratic or distorted facet's projected outline is a curve, of which
-/// the polygon takes the chords: Gauss points between the two lie just outside the master facet, where its shape
+/// clipped to the square [-1, 1]^2 and cut into triangles (Fan) with Gauss points, whose eta follows from the same
+/// equation for (eta, g). Master facets that share an outline thus tile the slave's square without gap or overlap, and
+/// sum_b M_ab over all of them is D_a to round-off. A quadratic or distorted facet's projected outline is a curve, of
+/// which the polygon takes the chords: Gauss points between the two lie just outside the master facet, where its shape
 /// functions go on.
 ///
 /// Derivatives are those of this very computation: dM/d(x_a, n_a, y_b).
 #pragma once
 
-#include "tribogel/contact/quad_point.hpp"
+#include "tribogel/contact/quad_fan.hpp"
 
 #include <utility>
 
@@ -32,53 +32,10 @@ template <int order> inline constexpr int outline_chords = order;
 inline constexpr double outline_margin = 1.1;
 
 /// And at most so many times, however the facet is distorted.
-inline constexpr double widest_outline = 6;
-
-/// Gauss points on a triangle as barycentric weights (product rule on the collapsed square); weights add up to 1. Exact
-/// to degree 2 n - 2.
-template <int n> struct TriangleRule {
-  std::array<std::array<double, 3>, n * n> point;
-  std::array<double, n * n> weight;
-};
-
-template <int n> TriangleRule<n> triangle_rule()
-{
-  const auto line = gauss_rule<n>();
-  TriangleRule<n> rule;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      const double p = 0.5 * (1 + line.point[i]), q = 0.5 * (1 - p) * (1 + line.point[j]);
-      rule.point[i * n + j] = {1 - p - q, p, q};
-      rule.weight[i * n + j] = 0.5 * line.weight[i] * line.weight[j] * (1 - p);
-    }
-  return rule;
-}
-
-/// How wide the slave facet's outline must be for a pair: so wide that the facet is inside, and what its normals meet
-/// on the master. In steps, since between them the cut depends on the facet through the frame only. All pairs of a
-/// slave facet must be given the same: facets that share a side must be cut at the same point of it.
-template <int order> double outline_width(const QuadMeasure<order> &measure, const QuadPair<order> &pair)
-{
-  const QuadFrame<order> frame(pair.x), master(pair.y);
-  const Vector3<double> m = master.A.col(0).cross(master.A.col(1));
-  double wider = 1;
-  for (std::size_t a = 0; a < pair.x.size(); ++a) {
-    const Vector3<double> met = pair.x[a] + way_to_plane(pair.x[a], pair.n[a], master.centre, m) * pair.n[a];
-    for (const auto &side : measure.outline)
-      for (const Vector3<double> &x : {pair.x[a], met})
-        while (side.normal.dot(frame(x)) > wider * side.distance && wider < widest_outline) wider *= outline_margin;
-  }
-  return wider * outline_margin;
-}
+inline constexpr double widest_outline = 4;
 
 namespace quad_mortar
 {
-
-/// Degree 10 and 12 a triangle. On flat parallelograms psi_a N_b has degree 4 and 8; elsewhere it is no polynomial, and
-/// what the rule misses changes as the surfaces slide and the cells are cut otherwise. On the paper scene, whose two
-/// meshes begin with common lines where round-off decides about cuts, Newton's method stalled at 4 times its tolerance
-/// with rules of degree 4, in 184 of 670 solves; with these no solve fails.
-template <int order> inline constexpr int rule_points = order + 5;
 
 /// A cut ends on its line, to so much of the square.
 constexpr double cut_round_off = 1e-14;
@@ -90,7 +47,7 @@ public:
   using Result = QuadPairMortar<order>;
 
   Kernel(const QuadMeasure<order> &slave_measure, const QuadPair<order> &facet_pair, bool derivatives)
-      : measure(slave_measure), pair(facet_pair), point(slave_measure, facet_pair), with_derivatives(derivatives)
+      : measure(slave_measure), pair(facet_pair), with_derivatives(derivatives)
   {
   }
 
@@ -99,14 +56,13 @@ public:
     if (!project_outline()) return out;
     clip();
     if (polygon.size() < 3) return out;
-    if (with_derivatives) {
-      out.dM.setZero(nodes * nodes, inputs);
-      by_vertex.assign(polygon.size(), ByVertex::Zero());
-    }
-    for (std::size_t k = 1; k + 1 < polygon.size(); ++k) add_triangle({0, k, k + 1});
+    std::vector<Vector2<double>> corners;
+    for (const Vertex &vertex : polygon) corners.push_back(vertex.at);
+    if (with_derivatives) out.dM.setZero(nodes * nodes, inputs);
+    Fan<order> fan(measure, pair, with_derivatives);
+    fan.integrate(corners, out);
     if (with_derivatives)
-      for (std::size_t k = 0; k < polygon.size(); ++k)
-        if (polygon[k].moves) out.dM.noalias() += by_vertex[k] * polygon[k].d;
+      for (std::size_t k = 0; k < polygon.size(); ++k) out.dM.noalias() += fan.by_vertex[k] * polygon[k].d;
     return out;
   }
 
@@ -114,21 +70,17 @@ private:
   /// A corner of a polygon: in space at first, then in the slave's parameter plane.
   template <int dim> struct Corner {
     Eigen::Matrix<double, dim, 1> at = Eigen::Matrix<double, dim, 1>::Zero();
-    bool moves = false;                                    ///< has derivatives
-    Eigen::Matrix<double, dim, inputs, Eigen::RowMajor> d; ///< by the inputs, set if it moves
+    Eigen::Matrix<double, dim, inputs, Eigen::RowMajor> d; ///< by the inputs, set if asked for
   };
   using Place = Corner<3>;
   using Vertex = Corner<2>;
-  using ByVertex = typename Point<order>::ByXi;
   using Row = Eigen::Matrix<double, 1, inputs>;
 
   const QuadMeasure<order> &measure;
   const QuadPair<order> &pair;
-  Point<order> point;
   bool with_derivatives;
   std::vector<Place> places;
   std::vector<Vertex> polygon;
-  std::vector<ByVertex> by_vertex; ///< dM / d xi of each vertex
   Result out;
 
   /// Whether the master's outline meets the slave facet's square, seen from the front.
@@ -170,7 +122,6 @@ private:
             {(1 - t) * corner[side][0] + t * corner[side + 1][0], (1 - t) * corner[side][1] + t * corner[side + 1][1]});
         Place place;
         place.at = interpolate(shape.N, pair.y);
-        place.moves = with_derivatives;
         if (with_derivatives) {
           place.d.setZero();
           for (int m = 0; m < nodes; ++m)
@@ -180,14 +131,38 @@ private:
       }
   }
 
+  /// So large that the facet is inside, and by how much that grows with the facet's positions.
+  struct Margin {
+    double value;
+    Row d = Row::Zero();
+  };
+  Margin margin_around(const QuadFrame<order> &frame) const
+  {
+    double widest = pair.neighbourhood;
+    int corner = -1;
+    const typename QuadMeasure<order>::Side *touched = nullptr;
+    for (const auto &side : measure.outline)
+      for (int b = 0; b < nodes; ++b) {
+        const double reach = side.normal.dot(frame(pair.x[b])) / side.distance;
+        if (reach > widest) widest = reach, corner = b, touched = &side;
+      }
+    const double limit = std::max(widest_outline, pair.neighbourhood);
+    Margin margin{outline_margin * std::min(widest, limit)};
+    if (!touched || !with_derivatives || widest > limit) return margin;
+    const Eigen::Matrix<double, 1, 2> turn = outline_margin / touched->distance * touched->normal.transpose();
+    for (int a = 0; a < nodes; ++a) margin.d.template segment<3>(3 * a) = turn * frame.slope(pair.x[corner], a);
+    margin.d.template segment<3>(3 * corner) += turn * frame.L;
+    return margin;
+  }
+
   void cut_to_neighbourhood(const QuadFrame<order> &frame)
   {
-    const double margin = pair.neighbourhood;
+    const Margin margin = margin_around(frame);
     for (const auto &side : measure.outline)
       cut(
-          places, [&](const Place &p) { return margin * side.distance - side.normal.dot(frame(p.at)); },
+          places, [&](const Place &p) { return margin.value * side.distance - side.normal.dot(frame(p.at)); },
           [&](const Place &p) {
-            Row d = -side.normal.transpose() * frame.L * p.d;
+            Row d = margin.d * side.distance - side.normal.transpose() * frame.L * p.d;
             for (int a = 0; a < nodes; ++a)
               d.template segment<3>(3 * a) -= side.normal.transpose() * frame.slope(p.at, a);
             return d;
@@ -223,7 +198,6 @@ private:
       g += step[2];
       if (std::abs(step[0]) > projection_tolerance || std::abs(step[1]) > projection_tolerance) continue;
       vertex.at = {xi[0], xi[1]};
-      vertex.moves = with_derivatives;
       if (!with_derivatives) return true;
       const Eigen::Matrix<double, 2, 3> B = inverse.topRows<2>();
       vertex.d.noalias() = B * place.d;
@@ -247,7 +221,7 @@ private:
         for (Vertex &p : polygon)
           if (1 - side * p.at[axis] < cut_round_off) { // on the side, exactly
             p.at[axis] = side;
-            if (p.moves) p.d.row(axis).setZero();
+            if (with_derivatives) p.d.row(axis).setZero();
           }
       }
   }
@@ -265,7 +239,6 @@ private:
       const double t = in_p / (in_p - in_q);
       Point v;
       v.at = p.at + t * (q.at - p.at);
-      v.moves = with_derivatives;
       if (with_derivatives) {
         const Row dt = (in_p * slope(q) - in_q * slope(p)) / ((in_p - in_q) * (in_p - in_q));
         v.d = (1 - t) * p.d + t * q.d + (q.at - p.at) * dt;
@@ -273,45 +246,6 @@ private:
       left.push_back(std::move(v));
     }
     points = std::move(left);
-  }
-
-  void add_triangle(const std::array<std::size_t, 3> &corner)
-  {
-    static const auto rule = triangle_rule<rule_points<order>>();
-    const Vector2<double> &p = polygon[corner[0]].at, e1 = polygon[corner[1]].at - p, e2 = polygon[corner[2]].at - p;
-    const double area = -0.5 * cross(e1, e2); // positive: the outline runs clockwise
-    if (area == 0 && !with_derivatives) return;
-    out.covered += area;
-    typename Result::Matrix mean = Result::Matrix::Zero();
-    for (std::size_t q = 0; q < rule.weight.size(); ++q) add_point(corner, rule.point[q], rule.weight[q], area, mean);
-    out.M += area * mean;
-    if (!with_derivatives) return;
-    // d area / d vertex: half the opposite edge, turned
-    const Vector2<double> edge[3] = {polygon[corner[2]].at - polygon[corner[1]].at, -e2, e1};
-    for (int k = 0; k < 3; ++k) {
-      const Vector2<double> slope(0.5 * edge[k][1], -0.5 * edge[k][0]);
-      const Eigen::Map<const Eigen::Matrix<double, nodes * nodes, 1>> all(mean.data());
-      by_vertex[corner[k]].noalias() += all * slope.transpose();
-    }
-  }
-
-  void add_point(const std::array<std::size_t, 3> &corner, const std::array<double, 3> &share, double rule_weight,
-                 double area, typename Result::Matrix &mean)
-  {
-    Vector2<double> xi = Vector2<double>::Zero();
-    for (int k = 0; k < 3; ++k) xi += share[k] * polygon[corner[k]].at;
-    const auto meeting = point.meet({xi[0], xi[1]});
-    if (!meeting.found) {
-      out.status = MortarStatus::no_projection;
-      return;
-    }
-    double beyond = 0;
-    point.add(meeting, rule_weight, mean, beyond);
-    out.overhang += area * beyond;
-    if (!with_derivatives) return;
-    point.add_slope(meeting, rule_weight * area, out.dM);
-    const ByVertex slope = rule_weight * area * point.slope_along(meeting); // the point moves with the triangle
-    for (int k = 0; k < 3; ++k) by_vertex[corner[k]] += share[k] * slope;
   }
 };
 

@@ -19,11 +19,30 @@ template <int order> Vector3<double> nearest_point(const QuadPoints<order> &face
   return interpolate(quad_shape<order>({std::clamp(l[0], -1.0, 1.0), std::clamp(l[1], -1.0, 1.0)}).N, facet);
 }
 
-/// Whether wall facet f leans over the master and is within its own extent (the smaller one) of it, measured along its
-/// normal.
+/// How many times as wide as the facet the part of the master is that the normals at its nodes meet, taken as a plane
+/// through c with the normal m.
 template <int order>
-bool may_touch(const QuadPoints<order> &facet, const QuadSurface &master, const std::vector<Vector3<double>> &y,
-               const quad_search::Tree &tree)
+double width_met(const QuadMeasure<order> &measure, const QuadPoints<order> &facet, const Vector3<double> &c,
+                 const Vector3<double> &m)
+{
+  constexpr double widest = 6;
+  const QuadFrame<order> frame(facet);
+  double width = 1;
+  for (std::size_t a = 0; a < facet.size(); ++a) {
+    const auto dN = tensor_shape<2, order>(quad_corner<order>(static_cast<int>(a))).dN;
+    const Vector3<double> n = tangent(dN, facet, 0).cross(tangent(dN, facet, 1)).normalized();
+    const Vector3<double> met = facet[a] + way_to_plane(facet[a], n, c, m) * n;
+    for (const auto &side : measure.outline) width = std::max(width, side.normal.dot(frame(met)) / side.distance);
+  }
+  return std::min(width, widest);
+}
+
+/// Whether a wall's facet leans over the master and is within its own extent (the smaller one) of it, measured along
+/// its normal, and the width of its neighbourhood.
+template <int order>
+std::pair<bool, double> may_touch(const QuadMeasure<order> &measure, const QuadPoints<order> &facet,
+                                  const QuadSurface &master, const std::vector<Vector3<double>> &y,
+                                  const quad_search::Tree &tree)
 {
   const QuadFrame<order> frame(facet);
   const Vector3<double> n = frame.A.col(0).cross(frame.A.col(1)).normalized();
@@ -32,7 +51,8 @@ bool may_touch(const QuadPoints<order> &facet, const QuadSurface &master, const 
   boost::geometry::assign_inverse(box);
   for (const auto &x : facet) quad_search::extend(box, x);
   quad_search::inflate(box, extent);
-  double nearest = std::numeric_limits<double>::infinity(), facing = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  Vector3<double> centre = Vector3<double>::Zero(), normal = centre;
   for (auto it = tree.qbegin(boost::geometry::index::intersects(box)); it != tree.qend(); ++it) {
     const auto other = master.on_facet<order>(it->second, y);
     const QuadFrame<order> at(other);
@@ -40,10 +60,13 @@ bool may_touch(const QuadPoints<order> &facet, const QuadSurface &master, const 
       const double distance = (x - nearest_point<order>(other, x)).norm();
       if (distance >= nearest) continue;
       nearest = distance;
-      facing = -n.dot(at.A.col(0).cross(at.A.col(1)).normalized());
+      centre = at.centre;
+      normal = at.A.col(0).cross(at.A.col(1)).normalized();
     }
   }
-  return facing > least_facing && nearest <= facing * extent;
+  const double facing = -n.dot(normal);
+  if (!(facing > least_facing) || nearest > facing * extent) return {false, 1};
+  return {true, width_met<order>(measure, facet, centre, normal)};
 }
 } // namespace quad_rolling
 
@@ -79,18 +102,29 @@ inline std::vector<bool> connected_to_crease(const QuadSurface &wall, const std:
   return connected;
 }
 
+/// Of each facet of a wall: whether it may touch, and how wide its neighbourhood is then (QuadPair).
+struct RollingFacets {
+  std::vector<bool> touch;
+  std::vector<double> neighbourhood;
+};
+
 /// The facets that lean over the master, are near it and connected with the crease. Positions as SolidContact places
-/// them.
-inline std::vector<bool> rolling_facets(const QuadSurface &wall, const std::vector<Vector3<double>> &x,
-                                        const std::vector<bool> &on_crease, const QuadSurface &master,
-                                        const std::vector<Vector3<double>> &y)
+/// them, measures of the wall's facets.
+template <int order>
+RollingFacets rolling_facets(const QuadSurface &wall, const std::vector<QuadMeasure<order>> &measures,
+                             const std::vector<Vector3<double>> &x, const std::vector<bool> &on_crease,
+                             const QuadSurface &master, const std::vector<Vector3<double>> &y)
 {
   const quad_search::Tree tree = quad_search::tree_of(master, y);
-  std::vector<bool> near(static_cast<std::size_t>(wall.facet_count()));
-  for (int f = 0; f < wall.facet_count(); ++f)
-    near[f] = wall.order == 1 ? quad_rolling::may_touch<1>(wall.on_facet<1>(f, x), master, y, tree)
-                              : quad_rolling::may_touch<2>(wall.on_facet<2>(f, x), master, y, tree);
-  return connected_to_crease(wall, on_crease, near);
+  RollingFacets rolling;
+  for (int f = 0; f < wall.facet_count(); ++f) {
+    const auto [touches, width] =
+        quad_rolling::may_touch<order>(measures[f], wall.on_facet<order>(f, x), master, y, tree);
+    rolling.touch.push_back(touches);
+    rolling.neighbourhood.push_back(width);
+  }
+  rolling.touch = connected_to_crease(wall, on_crease, rolling.touch);
+  return rolling;
 }
 
 } // namespace tribogel

@@ -55,10 +55,15 @@ public:
   }
 
   /// Facets of a wall that may touch (quad_rolling.hpp); `on_crease` marks the slave's nodes there.
-  std::vector<bool> rolling_facets(const ContactState<double> &state, const std::vector<bool> &on_crease) const
+  RollingFacets rolling_facets(const ContactState<double> &state, const std::vector<bool> &on_crease) const
   {
     const Placed at = place(state);
-    return tribogel::rolling_facets(geometry.slave_surface, at.x, on_crease, geometry.master_surface, at.y);
+    return std::visit(
+        [&](const auto &measures) {
+          return tribogel::rolling_facets(geometry.slave_surface, measures, at.x, on_crease, geometry.master_surface,
+                                          at.y);
+        },
+        geometry.measures);
   }
 
   /// Evaluate the mortar integrals that the slave nodes first <= a < last need (all by default).
@@ -253,20 +258,17 @@ void SolidContact::integrate(int f, std::span<const std::pair<int, int>> pairs, 
     overhang += part.overhang;
     facets[f].push_back({master, part.M, std::move(part.dM)});
   };
+  if (!geometry.neighbourhood.empty()) pair.neighbourhood = geometry.neighbourhood[f];
   std::vector<QuadPair<order>> all;
-  double width = 0;
   for (const auto &[slave, master] : pairs) {
     pair.y = geometry.master_surface.on_facet<order>(master, placed.y);
     pair.on_edge = geometry.master_surface.on_edge[master];
-    all.push_back(pair);
-    width = std::max(width, outline_width<order>(measure, pair));
+    if (geometry.exact_cells)
+      keep(master, quad_pair_mortar<order>(measure, pair, derivatives));
+    else
+      all.push_back(pair);
   }
-  if (geometry.exact_cells) {
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-      all[k].neighbourhood = width;
-      keep(pairs[k].second, quad_pair_mortar<order>(measure, all[k], derivatives));
-    }
-  } else {
+  if (!geometry.exact_cells) {
     auto parts = quad_element_mortar<order>(measure, all, derivatives);
     for (std::size_t k = 0; k < pairs.size(); ++k) keep(pairs[k].second, std::move(parts[k]));
   }

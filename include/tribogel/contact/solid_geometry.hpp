@@ -22,6 +22,7 @@ struct SolidParameters {
   /// Slave nodes at an edge that belong to another slave surface: they have no multiplier here, and their neighbours'
   /// basis functions are extended to them. Empty: none.
   std::vector<bool> on_crease = {};
+  std::vector<double> neighbourhood = {}; ///< of each slave facet, as in QuadPair; empty: 1
 };
 
 struct SolidGeometry {
@@ -34,12 +35,14 @@ struct SolidGeometry {
   double slave_area = 0;        ///< [mm^2]
   bool exact_cells = true;      ///< as in SolidParameters
 
+  std::vector<double> neighbourhood; ///< as in SolidParameters
+
   SolidGeometry() = default;
   SolidGeometry(QuadReference slave_face, QuadReference master_face, const SolidParameters &parameters)
       : slave(std::move(slave_face)), master(std::move(master_face)),
         slave_surface(slave.facets, parameters.order, static_cast<int>(slave.X.size()), parameters.left_out),
         master_surface(master.facets, parameters.order, static_cast<int>(master.X.size())), nodes(slave.X.size()),
-        exact_cells(parameters.exact_cells)
+        exact_cells(parameters.exact_cells), neighbourhood(parameters.neighbourhood)
   {
     if (parameters.order == 1)
       measure_facets<1>(parameters);
