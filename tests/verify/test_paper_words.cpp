@@ -62,20 +62,18 @@ TEST(paper_words, NormalForceDoesNotDependOnTheLawWithinItsOwnErrorAndTorqueDoes
   EXPECT_GT(most_torque, 5 * least_torque);
 }
 
-/// Fig. 7: "(3.11) slightly overestimates the converged weighted values". It does for the weights p dA; for the weights
-/// dA it is too low, since the contact is wider than the undeformed radius. So it is with every law.
+/// Fig. 7: "(3.11) slightly overestimates the converged weighted values". It does for the weights p dA and that
+/// figure's law. It does not for the weights dA, since the contact is wider than the undeformed radius; nor, even for
+/// the weights p dA, for case 3 of Table 2.
 TEST(paper_words, Equation311OverestimatesThePressureWeightedCoefficientAlone)
 {
-  for (const PolynomialFriction<double> &law : laws) {
-    if (law.exponents.empty()) continue;
-    const Measurement m = turning(law, 1);
-    EXPECT_GT(m.mu_apparent / m.mu_pressure_weighted, 1.0);
-    EXPECT_LT(m.mu_apparent / m.mu_pressure_weighted, 1.03);
-    EXPECT_LT(m.mu_apparent / m.mu_area_weighted, 0.98);
+  const double over_pressure_weighted[] = {1.005, 1.005, 1.008, 0.992},
+               over_area_weighted[] = {0.904, 0.904, 0.888, 0.940};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Measurement m = turning(laws[k + 1], 1);
+    EXPECT_NEAR(m.mu_apparent / m.mu_pressure_weighted, over_pressure_weighted[k], 0.001);
+    EXPECT_NEAR(m.mu_apparent / m.mu_area_weighted, over_area_weighted[k], 0.002);
   }
-  const Measurement figure7 = turning(laws[1], 1);
-  EXPECT_NEAR(figure7.mu_apparent / figure7.mu_pressure_weighted, 1.005, 0.001);
-  EXPECT_NEAR(figure7.mu_apparent / figure7.mu_area_weighted, 0.904, 0.002);
 }
 
 /// Figs. 12, 13: "the steady state (long term) values of the torque, normal force and apparent coefficient of friction
@@ -97,8 +95,9 @@ TEST(paper_words, LongTermValuesDoNotDependOnTheViscosityAndTorqueJumps)
       if (row.phase < 3) continue;
       const PhaseEnd &end = ends[k][static_cast<std::size_t>(row.phase - 1)];
       EXPECT_NEAR(row.measurement.normal_force / N, 1, 2e-4); // "approximatively constant when rotation is applied"
-      if (row.time - ends[k][static_cast<std::size_t>(row.phase - 2)].time > 10)
+      if (row.time - ends[k][static_cast<std::size_t>(row.phase - 2)].time > 10) {
         EXPECT_NEAR(row.measurement.torque / end.measurement.torque, 1, 1e-3) << row.time;
+      }
     }
   }
   for (std::size_t phase = 1; phase < 4; ++phase)
