@@ -50,6 +50,17 @@ def normalised(run):
     return history["time_s"], history["normal_force_N"] / reference, torque / (reference * run.radius)
 
 
+def first_minutes(axes, cases, results, seconds=120):
+    """N while the gels are pressed and relax, which the long axis does not show, in an inset."""
+    inset = axes.inset_axes((0.2, 0.13, 0.72, 0.55))
+    for case, (colour, style) in zip(cases.values(), STYLES):
+        time, force, _ = normalised(results.shown(case))
+        inset.plot(time[time < seconds], force[time < seconds], style, color=colour, linewidth=1.3)
+    inset.set(xlim=(0, seconds), ylim=(0, None))
+    inset.set_xlabel("t  (s)", fontsize=8, labelpad=1)
+    inset.tick_params(labelsize=8)
+
+
 def mark_levels(axes, start, names=LEVELS):
     """The phases of rotation, as the paper marks them."""
     for k, name in enumerate(names):
@@ -73,8 +84,8 @@ def force_and_torque(cases, results, name, until=7):
     for k in range(4, until):
         left.axvline(k, color="#bbbbbb", linewidth=0.8, linestyle=(0, (4, 3)), zorder=0)
     mark_levels(right, 4)
+    first_minutes(left, cases, results)
     if len(cases) > 1:
-        left.legend(frameon=False, fontsize=8.5, loc="lower right")
         right.legend(frameon=False, fontsize=8.5, loc="center left")
     return finish(figure, results, name)
 
@@ -124,7 +135,8 @@ def figure7(results):
     for name, label, colour, style in plot.COEFFICIENTS:
         left.plot(history["time_s"][turning] / PHASE, history[name][turning] * 1e3, style, color=colour, label=label)
     titled(left, "friction coefficient", "t / τ,  τ = 900 s", "μ  (10⁻³)")
-    left.set(xlim=(4, 7), ylim=(0, None))
+    left.set(xlim=(4, 7))
+    left.set_ylim(0, left.get_ylim()[1] * 1.08)
     mark_levels(left, 4)
     left.legend(frameon=False, fontsize=8.5, loc="center left")
     weights = ("mu_mean", "mu_area_weighted", "mu_pressure_weighted")

@@ -26,8 +26,8 @@ def profiles(results):
     return [
         Heading("Pressure and sliding speed over the patch", "profiles"),
         Text("Not in the paper. (3.11) assumes uniform pressure on a disc of the radius Rmin; this is what the simulation has instead."),
-        Figure(further_figures.profiles(results), "Left: the gels press hardest in the middle and hardly at the rim, where the top gel bulges "
-               "beyond its own radius. Middle: once the transient is over, v = ω r to round-off. Right: what turns the gels."),
+        Figure(further_figures.profiles(results), "Left: the gels press three times as hard in the middle as near the rim; at the rim itself the top gel's "
+               "edge makes a peak that grows under refinement. Middle: once the transient is over, v = ω r to round-off. Right: what turns the gels."),
         Table(("", "measured"), [
             ("pressure at the node nearest to the axis, at rest", centre.text("kPa", 1e3)),
             ("the same over N/(π Rmin²)", f"{centre.value / planar:.3f}"),

@@ -2,7 +2,7 @@
 import numpy as np
 
 from . import rheometer, runs
-from .figures import BLUE, GREEN, GREY, HOUR, ORANGE, RED, finish, new_figure, normalised, titled
+from .figures import BLUE, GREEN, GREY, HOUR, ORANGE, PHASE, RED, finish, new_figure, normalised, titled
 
 READINGS = {"one unit, MPa (fig06.opts)": "fig06", "G₂, G₃ in Pa (table1_reading_c)": "table1_reading_c",
             "as printed, N, m, s (table1_as_printed)": "table1_as_printed"}
@@ -34,6 +34,8 @@ def profiles(results):
                         label=f"{rate:g} rad/s")
     titled(speed, "sliding speed; lines: ω r", "r  (mm)", "v  (mm/s)")
     titled(stress, "circumferential traction", "r  (mm)", "τ  (Pa)")
+    pressure.set(xlim=(0, None), ylim=(0, None))
+    stress.set_xlim(0, None)
     for axes in (pressure, speed, stress):
         axes.legend(frameon=False, fontsize=8)
     return finish(figure, results, "profiles")
@@ -44,16 +46,18 @@ def energy(results):
     history = results.shown("fig06").history
     time = history["time_s"]
     work = history["work_of_plates_Nmm"]
+    fine = np.unique(np.concatenate((time, *(start + np.geomspace(0.1, 900, 60) for start in (3600, 4500, 5400)))))
     for column, label, colour, style in (("work_of_plates_Nmm", "work of the plates", "#222222", "-"),
                                          ("stored_energy_Nmm", "stored", BLUE, "-"),
                                          ("viscous_dissipation_Nmm", "viscous heat", GREEN, "--"),
                                          ("frictional_dissipation_Nmm", "frictional heat", RED, "--")):
-        shown = np.where(history[column] > 1e-3, history[column], np.nan)
-        left.semilogy(time / 900, shown, style, color=colour, label=label, linewidth=2.5 if colour == "#222222" else 1.4)
+        values = np.interp(fine, time, history[column])  # between rows heat grows linearly
+        left.semilogy(fine / PHASE, np.where(values > 1e-3, values, np.nan), style, color=colour, label=label,
+                      linewidth=2.5 if colour == "#222222" else 1.4)
     titled(left, "energies", "t / τ,  τ = 900 s", "N mm")
     left.legend(frameon=False, fontsize=8.5, loc="lower right")
     rest = work - history["stored_energy_Nmm"] - history["viscous_dissipation_Nmm"] - history["frictional_dissipation_Nmm"]
-    right.plot(time / 900, rest, color="#222222")
+    right.plot(time / PHASE, rest, color="#222222")
     titled(right, "work less the other three", "t / τ,  τ = 900 s", "N mm")
     return finish(figure, results, "energy")
 
@@ -63,24 +67,23 @@ def mesh_errors(results):
     figure, (left, right) = new_figure(2, height=3.5)
     elements = results.detail.elements * 2 ** np.arange(results.detail.levels)
     for function, name, colour in ((lambda run: run.force(), "N", BLUE), (lambda run: run.torque(), "T", RED),
-                                   (lambda run: run.end(-1, "contact_radius_mm"), "contact radius", GREEN)):
+                                   (lambda run: run.end(-1, "mu_pressure_weighted"), "μ weighted by pressure", GREEN)):
         values, limit = results.mesh_series(function)
-        off = 100 * np.abs(np.array(values) / limit.value - 1)
-        left.loglog(elements, off, "o-", color=colour, label=f"{name}, order {limit.order:.1f}")
+        order = f", order {limit.order:.1f}" if np.isfinite(limit.order) else ""
+        left.loglog(elements, 100 * np.abs(np.array(values) / limit.value - 1), "o-", color=colour, label=name + order)
     left.set_xticks(elements, [str(n) for n in elements])
     left.minorticks_off()
     titled(left, "meshes, 1 rad/s", "elements along the top radius", "departure from the limit  (%)")
     left.legend(frameon=False, fontsize=8.5)
     coarse, short = results.of("fig06/coarse"), results.of("fig06/coarse_short_steps")
-    for column, name, colour in (("normal_force_N", "N", BLUE), ("torque_Nmm", "T", RED)):
-        h, s = coarse.history, short.history
-        scale = np.max(np.abs(s[column]))
-        off = 100 * np.abs(np.interp(s["time_s"], h["time_s"], h[column]) - s[column]) / scale
-        ends = coarse.drawn.ends
-        at_ends = [100 * abs(coarse.end(k + 1, column) - short.end(k + 1, column)) / scale for k in range(len(ends))]
-        right.semilogy(h["time_s"][ends] / 900, np.maximum(at_ends, 1e-9), "o", color=colour, label=f"{name}, phase ends")
-        del off
-    titled(right, "steps: a quarter of the tolerance", "t / τ,  τ = 900 s", "change  (% of the largest)")
+    names = ("approach", "hold", "0.01 rad/s", "0.1 rad/s", "1 rad/s")
+    for column, name, colour, first, side in (("normal_force_N", "N", BLUE, 1, -0.2), ("torque_Nmm", "T", RED, 3, 0.2)):
+        phases = np.arange(first, len(names) + 1)
+        change = [100 * abs(coarse.end(k, column) / short.end(k, column) - 1) for k in phases]
+        right.bar(phases + side, change, 0.38, color=colour, label=name)
+    right.set_yscale("log")
+    right.set_xticks(range(1, len(names) + 1), names, fontsize=9)
+    titled(right, "steps: a quarter of the tolerance", "end of", "change of the value there  (%)")
     right.legend(frameon=False, fontsize=8.5)
     return finish(figure, results, "errors")
 
@@ -90,14 +93,12 @@ def readings(results):
     for (label, case), (colour, style) in zip(READINGS.items(), ((BLUE, "-"), (RED, "--"), (GREEN, "-."))):
         run = results.shown(case)
         time, force, _ = normalised(run)
-        left.plot(np.maximum(time, 1), force, style, color=colour, label=label)
+        left.plot(time, force, style, color=colour, label=label)
         surface = run.surface("bottom", 2)
         right.plot(surface["r_mm"], surface["z_mm"], style, color=colour, label=label)
         right.plot(run.end(2, "contact_radius_mm"), np.interp(run.end(2, "contact_radius_mm"), surface["r_mm"],
                                                               surface["z_mm"]), "o", color=colour, markersize=5)
-    left.set_xscale("log")
-    left.set_xlim(1, 6300)
-    left.set_ylim(0, 1.62)
+    left.set(xlim=(0, 150), ylim=(0, 1.75))
     titled(left, "axial force", "t  (s)", "N / Nref")
     left.legend(frameon=False, fontsize=8, loc="upper left")
     titled(right, "bottom surface at rest; dots: end of the contact", "r  (mm)", "z  (mm)")

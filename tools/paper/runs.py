@@ -31,7 +31,7 @@ class Detail:
     elements: int = 6
     levels: int = 3  # of halvings in the study of meshes
     tolerance: float = 0.1  # per cent, -time_tolerance
-    first_step: float = 1e-3  # s, of each phase, so that the rise of T after a jump is followed
+    first_step: float = 3e-5  # s, of each phase: follows the rise of T after a jump, which takes milliseconds
     solid_elements: tuple = (2, 3)  # in space, order 2; empty: no runs in space
 
 
