@@ -15,6 +15,7 @@ WIDTH, HEIGHT, MARGIN = 595.0, 842.0, 48.0  # points
 LINE = 1.35  # of the font's size
 SIZES = {1: 16, 2: 13, 3: 10.5}
 TEXT_SIZE, TABLE_SIZE = 9.0, 7.4
+NARROW = 62.0  # points: columns of a table up to this wide are not shrunk
 
 
 @functools.cache
@@ -86,7 +87,9 @@ class Pages:
         wanted = [min(230.0, max(sum(_word_width(w, TABLE_SIZE, True) + 0.35 * TABLE_SIZE for w in str(c).split())
                                  for c in column)) + 8 for column in columns]
         total, room = sum(wanted), WIDTH - 2 * MARGIN
-        widths = [w * room / total for w in wanted] if total > room else wanted
+        narrow = sum(w for w in wanted if w <= NARROW)  # these keep their width
+        shrink = min(1.0, (room - narrow) / (total - narrow)) if total > narrow else 1.0
+        widths = [w if w <= NARROW else w * shrink for w in wanted]
         self.y -= 5
         for k, row in enumerate([header, *rows]):
             cells = [wrapped(cell, TABLE_SIZE, width - 6, bold=k == 0) for cell, width in zip(row, widths)]

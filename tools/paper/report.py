@@ -48,7 +48,7 @@ def findings_of_forces(results):
     return [
         (verdict(rise > 0), "Fig. 5: N rises when the torque is applied", f"by {rise:.3f} N, {100 * rise / fig5.force(2):.2f} %, for 0.1 rad; as the square of the twist", "fig05"),
         (verdict(abs(change) < error), "Fig. 6: N stays constant when rotation is applied", f"changes by {change:.4f} N; error of N {error:.2g} N", "fig06"),
-        (verdict(min(jumps) > 9.9 and slow < 90), "Fig. 6: T jumps with the rate", f"by factors {jumps[0]:.3f} and {jumps[1]:.3f}, within {slow:.2g} s of phases of 900 s", "fig06"),
+        (verdict(min(jumps) > 9.9 and slow < 90), "Fig. 6: T jumps with the rate", f"by factors {jumps[0]:.3f} and {jumps[1]:.3f}, within {1e3 * slow:.0f} ms of phases of 900 s", "fig06"),
         (verdict(spread < error), "Fig. 10: N does not depend on the friction", f"laws of Table 2, of Fig. 6 and none: within {spread:.4f} N; error of N {error:.2g} N", "fig10"),
     ]
 
@@ -58,15 +58,17 @@ def findings_of_friction(results):
     over = {name: run.end(5, "mu_apparent") / run.end(5, f"mu_{name}") for name in ("pressure_weighted", "area_weighted", "mean")}
     tops = [results.shown(case).torque() / (results.shown(case).force() * 10) for case in ("table2_case1", "table2_case2", "table2_case3")]
     pairs = ("fig12_ve_ve", "fig12_he_ve", "fig12_he_he")
-    spread = max(abs(results.shown(case).end(5, column) / results.shown(pairs[0]).end(5, column) - 1)
+    spread = max(abs(results.shown(case).end(k, column) / results.shown(pairs[0]).end(k, column) - 1) for k in (3, 4, 5)
                  for case in pairs for column in ("normal_force_N", "torque_Nmm", "mu_apparent"))
+    constant = results.shown("table2_case3").end(3, "mu_apparent") / results.shown("table2_case3").end(3, "mu_pressure_weighted")
     peaks = [peak(results.shown(case)) / results.shown(case).force() for case in pairs]
     return [
         (verdict(1 < over["pressure_weighted"] < 1.05), "Fig. 7: (3.11) slightly overestimates the weighted coefficient: weights p dA", per_cent(over["pressure_weighted"]), "fig07"),
         (verdict(over["area_weighted"] > 1), "the same: weights dA", per_cent(over["area_weighted"]), "fig07"),
         (verdict(over["mean"] > 1), "the same: mean over the nodes", per_cent(over["mean"]) + ", depends on the mesh", "fig07"),
-        ("sensitive", "Fig. 10: T depends strongly on the law", f"T/Tref at 1 rad/s: {', '.join(f'{1e3 * t:.3f}' for t in tops)} · 10⁻³", "fig10"),
-        (verdict(max(tops) > 2e-3), "Fig. 10's torque axis runs to 2.5·10⁻³", f"Table 2 gives no more than {1e3 * max(tops):.2f} · 10⁻³, in any gel", "fig10"),
+        (verdict(max(tops) > 2 * min(tops)), "Fig. 10: T depends strongly on the law", f"T/Tref at 1 rad/s: {', '.join(f'{1e3 * t:.3f}' for t in tops)} · 10⁻³", "fig10"),
+        ("sensitive", "the same, to the law: where b0 rules (case 3 at 0.01 rad/s), weights p dA", per_cent(constant), "fig07"),
+        (verdict(max(tops) > 2e-3), "Fig. 10's torque axis, to 2.5·10⁻³, fits Table 2", f"Table 2 gives no more than {1e3 * max(tops):.2f} · 10⁻³, in any gel", "fig10"),
         (verdict(spread < 1e-4), "Figs. 12, 13: long-time values do not depend on the viscosity", f"N, T, μ of the three pairs within {spread:.0e}, relative", "fig12"),
         (verdict(peaks[2] < 1.01 < peaks[0]), "Fig. 12: hyperelastic gels cannot show the relaxation", "largest N/Nref " + ", ".join(f"{p:.3f}" for p in peaks), "fig12"),
     ]
@@ -87,7 +89,7 @@ def findings_of_assumptions(results):
         ("does not hold", "Table 1 with its printed units", f"contact radius {printed.end(2, 'contact_radius_mm'):.2f} mm, largest N/Nref {peak(printed) / printed.force():.3f}", "readings")
         if printed.end(2, "contact_radius_mm") < 10.5 else ("holds", "Table 1 with its printed units", "", "readings"),
         ("sensitive", "N, with G2 and G3 in Pa instead of MPa", f"{third.force():.1f} N instead of {run.force():.1f}; T/Tref {per_cent(reduced_torque()(third) / reduced_torque()(run))}", "readings"),
-        ("sensitive", "Section 5: the assumed form of the law biases what is found", f"wrong forms miss measured torques by up to {100 * worst:.0f} %; the right one finds b0, b1 to "
+        (verdict(worst > 0.1), "Section 5: the assumed form of the law biases what is found", f"wrong forms miss measured torques by up to {100 * worst:.0f} %; the right one finds b0, b1 to "
          f"{100 * bias[0]:+.1f}, {100 * bias[1]:+.1f} %", "fits"),
         ("not given", "heights, compression, mesh, steps, branch's bulk modulus, Fig. 5's twist, all measurements", "assumed, or not compared", "doubts"),
     ]
@@ -105,7 +107,7 @@ def opening(results):
     return [
         Text(f"Every number below comes from {count} runs of tribogel {program['version']} ({cpu:.0f} CPU seconds, {steps} steps) that the same command wrote beside this page, "
              f"below runs/; each figure is drawn from them. Units: mm, N, s, MPa, rad. A number is followed by its errors: ± (mesh) from two meshes, "
-             f"± (time) from two step tolerances."),
+             f"± (time) from two step tolerances; no ± (time) where it is less than a hundredth of the other."),
         Heading("In short", "findings"),
         Findings(findings_of_forces(results) + findings_of_friction(results) + findings_of_assumptions(results)),
         Text("holds: what the paper says comes out. does not hold: it does not, under the reading named. sensitive: it hangs on a choice, by as much as is said. "

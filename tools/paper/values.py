@@ -19,6 +19,7 @@ from refinement import plot
 from . import runs
 
 THEORY = 4.0  # order of N and T that elements of order 2 allow
+NEGLIGIBLE = 0.01  # a time error below this part of the mesh's is not shown
 
 
 @dataclasses.dataclass(frozen=True)
@@ -38,13 +39,18 @@ class Value:
             return max(0, 1 - math.floor(math.log10(error * 1.0000001)))
         return max(0, 4 - math.floor(math.log10(abs(self.value)))) if self.value else 3
 
+    def most_decimals(self):
+        """Of six significant digits, which is what Newton's tolerance leaves."""
+        return max(0, 5 - math.floor(math.log10(abs(self.value)))) if self.value else 12
+
     def text(self, unit="", scale=1.0, errors=True):
         """"290.54 +- 0.12 (mesh) +- 0.001 (time) N"; scale 1e3 prints thousandths."""
         v = Value(self.value * scale, abs(self.mesh * scale), abs(self.time * scale))
-        decimals = min(v.decimals(), 12)
+        decimals = min(v.decimals(), v.most_decimals())
         words = [f"{v.value:.{decimals}f}"]
         for error, name in ((v.mesh, "mesh"), (v.time, "time")):
-            if errors and math.isfinite(error):
+            unseen = name == "time" and error < NEGLIGIBLE * v.mesh
+            if errors and math.isfinite(error) and not unseen:
                 words.append(f"± {short(error, decimals)} ({name})")
         return " ".join(words + ([unit] if unit else []))
 
