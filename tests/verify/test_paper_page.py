@@ -8,8 +8,8 @@ import unittest
 ROOT = pathlib.Path(__file__).parents[2]
 PAGE = (ROOT / "src" / "PAPER.md").read_text(encoding="utf-8")
 NUMBERED = {2: 3, 3: 13, 4: 10}  # section of the paper: its last equation
-DOUBTS = (r"\(3\.11\) lacks a factor R", "Units of Table 1", "Units of the viscosities", "Bulk modulus of the branch", "Unit of the sliding speed",
-          "Heights and approach", "Mesh and steps")
+DOUBTS = (r"\(3\.11\) lacks a factor R", "Units of Table 1", "Units of the viscosities", "Bulk modulus of the branch",
+          "Unit of the sliding speed", "Heights and approach", "Mesh and steps")
 
 
 def rows(title):

@@ -23,8 +23,8 @@ from paper import rheometer, runs  # noqa: E402
 from paper.values import Results, Value  # noqa: E402
 
 PROGRAM = None
-FIGURES = ("fig05", "fig06", "fig07", "fig08", "fig09", "fig10", "fig12", "findings", "doubts", "errors", "energy", "profiles", "fits",
-           "readings")
+FIGURES = ("fig05", "fig06", "fig07", "fig08", "fig09", "fig10", "fig12", "findings", "doubts", "errors", "energy", "profiles",
+           "fits", "readings")
 
 
 class Page(html.parser.HTMLParser):

@@ -46,12 +46,15 @@ VERDICTS = {"holds": "#2f7d4f", "does not hold": "#b3372b", "sensitive": "#b06a0
 
 STYLE = """
 body { font: 16px/1.5 system-ui, "DejaVu Sans", sans-serif; color: #222; max-width: 60em; margin: 2em auto; padding: 0 1em; }
-h1 { font-size: 1.7em; line-height: 1.25; } h2 { font-size: 1.3em; margin-top: 2.2em; border-top: 1px solid #ddd; padding-top: .8em; }
+h1 { font-size: 1.7em; line-height: 1.25; }
+h2 { font-size: 1.3em; margin-top: 2.2em; border-top: 1px solid #ddd; padding-top: .8em; }
 h3 { font-size: 1.05em; margin-top: 1.6em; }
 blockquote { margin: 1em 0; padding: .4em 1em; border-left: 4px solid #1f5a99; background: #f2f6fa; }
 blockquote b { color: #1f5a99; }
-table { border-collapse: collapse; font-size: .86em; margin: 1em 0; } caption { caption-side: top; text-align: left; padding-bottom: .4em; }
-th, td { padding: .3em .7em; border-bottom: 1px solid #ddd; text-align: left; vertical-align: top; } th { background: #f4f4f4; }
+table { border-collapse: collapse; font-size: .86em; margin: 1em 0; }
+caption { caption-side: top; text-align: left; padding-bottom: .4em; }
+th, td { padding: .3em .7em; border-bottom: 1px solid #ddd; text-align: left; vertical-align: top; }
+th { background: #f4f4f4; }
 figure { margin: 1.2em 0; } figure img { width: 100%; height: auto; } figcaption { font-size: .9em; color: #444; }
 .verdict { font-weight: 600; white-space: nowrap; } .wide { overflow-x: auto; }
 nav { font-size: .92em; }

@@ -55,7 +55,7 @@ def first_minutes(axes, cases, results, seconds=120):
     inset = axes.inset_axes((0.2, 0.13, 0.72, 0.55))
     for case, (colour, style) in zip(cases.values(), STYLES):
         time, force, _ = normalised(results.shown(case))
-        inset.plot(time[time < seconds], force[time < seconds], style, color=colour, linewidth=1.3)
+        inset.plot(time, force, style, color=colour, linewidth=1.3)
     inset.set(xlim=(0, seconds), ylim=(0, None))
     inset.set_xlabel("t  (s)", fontsize=8, labelpad=1)
     inset.tick_params(labelsize=8)

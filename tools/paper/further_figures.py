@@ -96,8 +96,8 @@ def readings(results):
         left.plot(time, force, style, color=colour, label=label)
         surface = run.surface("bottom", 2)
         right.plot(surface["r_mm"], surface["z_mm"], style, color=colour, label=label)
-        right.plot(run.end(2, "contact_radius_mm"), np.interp(run.end(2, "contact_radius_mm"), surface["r_mm"],
-                                                              surface["z_mm"]), "o", color=colour, markersize=5)
+        edge = run.end(2, "contact_radius_mm")
+        right.plot(edge, np.interp(edge, surface["r_mm"], surface["z_mm"]), "o", color=colour, markersize=5)
     left.set(xlim=(0, 150), ylim=(0, 1.75))
     titled(left, "axial force", "t  (s)", "N / Nref")
     left.legend(frameon=False, fontsize=8, loc="upper left")
@@ -115,6 +115,7 @@ def four_rates(results):
     right.semilogy(time[turning] / HOUR, torque[turning], color=RED)
     titled(right, "torque, four rates", "t  (h)", "T / Tref")
     left.set_ylim(0, None)
+    right.set_ylim(1e-5, 0.1)
     return finish(figure, results, "fig04")
 
 
