@@ -1,6 +1,6 @@
 """The report's first table: what the paper says, whether it comes out, and by how much. Rows of verdict, statement, measured and
 the section where more is said."""
-from . import runs
+from . import runs, sensitivity
 from .sections import per_cent, reduced_torque
 from .values import peak, rise_time
 
@@ -75,6 +75,7 @@ def of_assumptions(results):
     run, printed, softer = (results.shown(case) for case in ("fig06", "table1_as_printed", "table1_reading_c"))
     off = [abs(run.end(2, column) / value - 1) for column, value in ((CENTRE, 0.31151), (RIM, 0.12338))]
     hidden, right = results.of("fit/hidden"), results.of("fit/b0_b1")
+    to_height = sensitivity.read(results.output)["top height"][1]
     worst = max(abs(fitted.torque_over_force(k + 1) / hidden.torque_over_force(k + 1) - 1)
                 for form, fitted in results.fits().items() if form not in RIGHT_FORMS for k in range(len(runs.FIT_RATES)))
     bias = ", ".join(per_cent(b / h, 1) for b, h in zip(right.law[0], hidden.law[0]))
@@ -88,6 +89,8 @@ def of_assumptions(results):
         ("sensitive", "N, to G2 and G3 in Pa instead of MPa",
          f"{softer.force():.1f} N instead of {run.force():.1f}; T/Tref "
          + per_cent(reduced_torque()(softer) / reduced_torque()(run)), "readings"),
+        ("sensitive", "N and T, to the height of the top gel",
+         f"{to_height['N', 3][0]:+.2f} and {to_height['T', 3][0]:+.2f} % per %", "sensitivity"),
         (verdict(worst > 0.1), "Section 5: the assumed form of the law biases what is found",
          f"wrong forms miss measured torques by up to {100 * worst:.0f} %; the right one finds b0, b1 to {bias}", "fits"),
         ("not given", "heights, compression, mesh, steps, branch's bulk modulus, Fig. 5's twist, all measurements",

@@ -5,7 +5,7 @@ import numpy as np
 
 from . import further_figures, rheometer, runs
 from .document import Figure, Heading, Quote, Table, Text
-from .sections import per_cent, reduced_torque
+from .sections import ENDS, per_cent, reduced_torque
 from .values import Value, peak
 
 
@@ -93,6 +93,26 @@ def errors(results):
         Text(f"Steps follow -time_tolerance {results.detail.tolerance:g} %; ± (time) is what a quarter of it changes, "
              "times 4/3, on the coarser mesh. At the ends of long phases it is far below the mesh's error; it matters "
              "for the largest N, while the gels relax."),
+        *own_estimate(results),
+    ]
+
+
+def own_estimate(results):
+    """What -error_estimate says beside what this report says: N and T at the phases' ends."""
+    estimate, rows = results.of("estimate").summary["error_estimate"], []
+    for phase, end in enumerate(ENDS, 1):
+        cells = []
+        for column in ("normal_force_N", "torque_Nmm"):
+            here = results.number("fig06", lambda r, k=phase, c=column: r.end(k, c))
+            there = estimate["phases"][phase - 1][column]
+            cells += ["-"] * 4 if here.value == 0 else [
+                f"{here.mesh:.2g}", f"{there['mesh']['error']:.2g}", f"{here.time:.1g}", f"{there['time']['error']:.1g}"]
+        rows.append((end, *cells))
+    names = ("± (mesh)", "-error_estimate", "± (time)", "-error_estimate")
+    return [
+        Text(f"The program estimates the errors of N and T itself with -error_estimate, from {len(estimate['companions'])} companions of "
+             f"the run that cost {estimate['cpu_s']:.1f} CPU s beside its own {results.of('estimate').summary['cost']['cpu_s']:.1f}:"),
+        Table(("at the end of", *(f"{quantity}: {name}" for quantity in "NT" for name in names)), rows),
     ]
 
 

@@ -1,5 +1,5 @@
 """The report: findings first, then a section for each figure and table, then what the paper leaves open."""
-from . import findings, further, rheometer, runs, sections
+from . import findings, further, rheometer, runs, sections, sensitivity
 from .document import Findings, Heading, Table, Text, write_html
 from .pages import write_pdf
 
@@ -58,7 +58,7 @@ def opening(results):
 def write(results):
     blocks = opening(results)
     for section in (sections.figure5, sections.figure6, sections.figure7, sections.figure8, sections.figure9,
-                    sections.figures10_11, sections.figures12_13, further.fits, further.profiles, further.energy,
+                    sections.figures10_11, sections.figures12_13, further.fits, sensitivity.section, further.profiles, further.energy,
                     further.errors, further.in_space, further.readings, further.four_rates):
         blocks += section(results)
     blocks += doubts()

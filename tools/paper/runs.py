@@ -33,10 +33,11 @@ class Detail:
     tolerance: float = 0.1  # per cent, -time_tolerance
     first_step: float = 3e-5  # s, of each phase: follows the rise of T after a jump, which takes milliseconds
     solid_elements: tuple = (2, 3)  # in space, order 2; empty: no runs in space
+    parameters: tuple = None  # whose sensitivities are sought; None: of all
 
 
 FULL = Detail()
-QUICK = Detail(elements=2, tolerance=1.0, first_step=0.05, solid_elements=())
+QUICK = Detail(elements=2, tolerance=1.0, first_step=0.05, solid_elements=(), parameters=("top height", "K"))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -80,6 +81,12 @@ def meshes(detail):
                   ("-schedule_kind", "steady", *mesh_words(detail, halvings)))
 
 
+def own_estimate(detail):
+    """The program's own word about the errors of Fig. 6."""
+    return Run("estimate", ("paper/fig06.opts",), (*mesh_words(detail, 1), "-time_tolerance", f"{detail.tolerance:.12g}",
+                                                   "-error_estimate", "true"))
+
+
 def frictionless(detail):
     for halvings in (1, 0):
         yield Run(f"frictionless/{halvings}", ("paper/fig06.opts",),
@@ -121,8 +128,8 @@ def fitted_law(form, coefficients, detail):
 
 def first_stage(detail):
     """All but the fitted laws, the dearest first so that the last ones to end are short."""
-    return [*in_space(detail), *reversed([*meshes(detail)]), *transients(detail), *frictionless(detail), *torsion(detail),
-            hidden_law(detail)]
+    return [*in_space(detail), own_estimate(detail), *reversed([*meshes(detail)]), *transients(detail),
+            *frictionless(detail), *torsion(detail), hidden_law(detail)]
 
 
 def execute(run, program, output):
