@@ -13,6 +13,7 @@
 #include "support/version.hpp"
 
 #include <cstdio>
+#include <functional>
 
 namespace tribogel
 {
@@ -32,6 +33,29 @@ std::string version_text()
   char petsc[256];
   PetscGetVersion(petsc, sizeof petsc);
   return std::string("tribogel ") + version + " (" + petsc + ")\n";
+}
+
+/// Whatever the outcome of a run and what is known of it so far, into summary.json.
+using SummaryWriter = std::function<PetscErrorCode(const ErrorEstimate *estimate)>;
+
+/// -error_estimate. The run has been recorded, so that nothing is lost when companions are killed.
+PetscErrorCode ReportErrors(MPI_Comm comm, const SceneInput &input, const SerialMesh &from_file, double start,
+                            const Recorder &recorder, bool completed, const Progress &progress,
+                            const SummaryWriter &write)
+{
+  ErrorEstimate estimate;
+  const Scene &scene = input.scene;
+  PetscFunctionBeginUser;
+  if (completed)
+    PetscCall(EstimateErrors(
+        comm, scene, input.mesh_file.empty() ? nullptr : &from_file, recorder,
+        wish_to_stop(start, scene.output.wall_time),
+        [&progress](const Companion &companion) { progress.show(companion); }, estimate));
+  else
+    estimate.notes.emplace_back("the run is not complete");
+  PetscCall(write(&estimate));
+  progress.show(estimate, recorder);
+  PetscFunctionReturn(0);
 }
 
 /// Options -> scene -> mesh, bulk, contact -> TS -> observers -> files.
@@ -58,6 +82,7 @@ PetscErrorCode Run(const CommandLine &line, int &status)
   }
   PetscCall(ReadScene(input));
   PetscCall(MakeMesh(comm, input, mesh));
+  const SerialMesh from_file = input.mesh_file.empty() ? SerialMesh{} : mesh; // for companions
   if (continues) expect_unchanged(input, stored.options);
   PetscCall(problem.SetUp(comm, input.scene, std::move(mesh)));
   PetscCall(problem.ProbeSolver());
@@ -87,8 +112,14 @@ PetscErrorCode Run(const CommandLine &line, int &status)
                                       : exit_status::cannot_go_on;
   if (status == exit_status::cannot_go_on) PetscCall(checkpoint.Write(problem));
   PetscCall(checkpoint.Cost(comm, cost));
-  PetscCall(WriteSummary(comm, directory, problem, recorder, outcome, cost, resolved_options(input), input.warnings));
+  const auto write = [&](const ErrorEstimate *estimate) {
+    return WriteSummary(comm, directory, problem, recorder, outcome, cost, resolved_options(input), input.warnings,
+                        estimate);
+  };
+  PetscCall(write(nullptr));
   progress.finish(recorder, problem.counts, outcome, cost, directory);
+  if (input.scene.output.error_estimate)
+    PetscCall(ReportErrors(comm, input, from_file, start, recorder, completed, progress, write));
   if (status == exit_status::cannot_go_on) print_error(outcome.reason);
   PetscFunctionReturn(0);
 }

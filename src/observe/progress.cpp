@@ -88,4 +88,46 @@ void Progress::finish(const Recorder &recorder, const SolveCounts &counts, const
                 directory.c_str());
 }
 
+void Progress::show(const Companion &companion) const
+{
+  char cost[64];
+  std::snprintf(cost, sizeof cost, ": %d unknowns, %d steps, %.1f CPU s", static_cast<int>(companion.unknowns),
+                static_cast<int>(companion.steps), companion.cpu_seconds);
+  show("error estimate: " + companion.name + cost + (companion.failure.empty() ? "" : ", failed"));
+}
+
+namespace
+{
+
+/// "0.12 (2.0)": an error and, in brackets, the observed order that it trusts; "?" where it is not known.
+std::string text_of(const Extrapolation &error)
+{
+  char text[48];
+  if (std::isnan(error.error)) return "?";
+  if (error.verdict == Convergence::confirmed && error.order == error.order)
+    std::snprintf(text, sizeof text, "%.2g (%.1f)", error.error, error.order);
+  else
+    std::snprintf(text, sizeof text, "%.2g", error.error);
+  return text;
+}
+
+} // namespace
+
+void Progress::show(const ErrorEstimate &estimate, const Recorder &recorder) const
+{
+  if (!speaks) return;
+  if (!estimate.phases.empty())
+    std::printf("\n%5s %12s %16s %9s %14s %16s %9s\n", "phase", "N  N", "+- mesh (order)", "+- time", "T  N mm",
+                "+- mesh (order)", "+- time");
+  for (std::size_t k = 0; k < estimate.phases.size(); ++k) {
+    const auto &[force, torque] = estimate.phases[k];
+    const Measurement &m = recorder.phases[k].measurement;
+    std::printf("%5d %12.7g %16s %9s %14.7g %16s %9s\n", recorder.phases[k].phase, m.normal_force,
+                text_of(force.mesh).c_str(), text_of(force.time).c_str(), m.torque, text_of(torque.mesh).c_str(),
+                text_of(torque.time).c_str());
+  }
+  for (const std::string &note : estimate.notes) std::printf("note: error estimate: %s\n", note.c_str());
+  std::printf("error estimate: %zu companions, %.1f CPU s\n", estimate.companions.size(), estimate.cpu_seconds);
+}
+
 } // namespace tribogel

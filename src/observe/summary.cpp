@@ -3,7 +3,6 @@
 #include "support/version.hpp"
 
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -72,29 +71,45 @@ Json balances(const Recorder &recorder)
           {"energy_residual_relative", number(energy.residual() / most_work)}};
 }
 
-} // namespace
-
-PetscErrorCode MeasureCost(MPI_Comm comm, double wall_start, RunCost &cost)
+Json describe(const Extrapolation &error)
 {
-  rusage usage{};
-  PetscFunctionBeginUser;
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval &t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  double sums[2] = {seconds(usage.ru_utime) + seconds(usage.ru_stime), static_cast<double>(usage.ru_maxrss) / 1024};
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm));
-  cost.cpu_seconds = sums[0];
-  cost.peak_memory_MB = sums[1];
-  cost.wall_seconds = MPI_Wtime() - wall_start;
-  PetscCallMPI(MPI_Comm_size(comm, &cost.ranks));
-  PetscFunctionReturn(0);
+  return {{"error", number(error.error)},
+          {"observed_order", number(error.order)},
+          {"verdict", convergence_names[static_cast<std::size_t>(error.verdict)]}};
 }
+
+Json describe(const ErrorEstimate &estimate, const std::vector<PhaseEnd> &ends)
+{
+  Json json{{"notes", estimate.notes}, {"cpu_s", estimate.cpu_seconds}};
+  json["companions"] = Json::array();
+  for (const Companion &companion : estimate.companions)
+    json["companions"].push_back({{"name", companion.name},
+                                  {"edges_over_run", companion.size},
+                                  {"tolerance_over_run", companion.tolerance_over},
+                                  {"unknowns", companion.unknowns},
+                                  {"accepted_steps", companion.steps},
+                                  {"cpu_s", companion.cpu_seconds},
+                                  {"failure", companion.failure}});
+  json["phases"] = Json::array();
+  for (std::size_t k = 0; k < estimate.phases.size(); ++k) {
+    Json phase{{"phase", ends[k].phase}, {"time_s", ends[k].time}};
+    const char *const names[] = {"normal_force_N", "torque_Nmm"};
+    const double values[] = {ends[k].measurement.normal_force, ends[k].measurement.torque};
+    for (std::size_t load = 0; load < 2; ++load)
+      phase[names[load]] = {{"value", number(values[load])},
+                            {"mesh", describe(estimate.phases[k][load].mesh)},
+                            {"time", describe(estimate.phases[k][load].time)}};
+    json["phases"].push_back(phase);
+  }
+  return json;
+}
+
+} // namespace
 
 PetscErrorCode WriteSummary(MPI_Comm comm, const std::string &directory, const Problem &problem,
                             const Recorder &recorder, const RunOutcome &outcome, const RunCost &cost,
                             const std::vector<std::pair<std::string, std::string>> &options,
-                            const std::vector<std::string> &warnings)
+                            const std::vector<std::string> &warnings, const ErrorEstimate *estimate)
 {
   PetscMPIInt rank;
   PetscFunctionBeginUser;
@@ -136,6 +151,7 @@ PetscErrorCode WriteSummary(MPI_Comm comm, const std::string &directory, const P
                   {"cpu_s", cost.cpu_seconds},
                   {"wall_s", cost.wall_seconds},
                   {"peak_memory_MB", cost.peak_memory_MB}};
+  if (estimate) json["error_estimate"] = describe(*estimate, recorder.phases);
   const std::string path = directory + "/summary.json", temporary = path + ".part";
   std::ofstream(temporary) << json.dump(2) << std::endl;
   PetscCheck(std::rename(temporary.c_str(), path.c_str()) == 0, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE,

@@ -363,6 +363,13 @@ OptionGroup output_group()
         .source = "own",
         .rule = "the directory of a run that has written a checkpoint",
         .may_change = true},
+       {.name = "-error_estimate",
+        .kind = OptionKind::flag,
+        .fallback = "false",
+        .meaning = "after the run others of the same scene, on coarser meshes and with shorter steps, and from them"
+                   " the errors of N and T at each phase's end; they take about twice the run's time",
+        .source = "own",
+        .may_change = true},
        {.name = "-wall_time",
         .kind = OptionKind::real,
         .fallback = "",

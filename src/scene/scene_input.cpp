@@ -280,6 +280,7 @@ void read_output(const OptionReader &reader, SceneInput &input)
   const Option &directory = OptionReader::declared("-output_directory"), &restart = OptionReader::declared("-restart");
   output.directory = reader.path(directory);
   output.overwrite = reader.flag("-overwrite");
+  output.error_estimate = reader.flag("-error_estimate");
   output.checkpoint_every = reader.real("-checkpoint_every");
   if (reader.is_given("-wall_time")) output.wall_time = reader.real("-wall_time");
   if (!reader.is_given(restart.name)) return;

@@ -23,6 +23,8 @@ namespace
 // PETSc's handlers are plain C functions, and there is one PETSc in a process: so is their state.
 int status_of_errors = exit_status::bad_input;
 std::string caught_help;
+bool keeps_errors = false;
+std::string kept_error;
 std::string sources;                      ///< the words that tell PETSc where to read options
 constexpr std::size_t longest_word = 200; ///< of a message; a damaged file may hold any
 PetscErrorCode (*const print_as_ever)(FILE *, const char[], std::va_list) = PetscVFPrintf;
@@ -141,6 +143,10 @@ PetscErrorCode ReportError(MPI_Comm comm, int, const char *function, const char 
   MPI_Comm_size(comm, &together);
   MPI_Comm_size(MPI_COMM_WORLD, &all);
   const bool alone = together < all;
+  if (keeps_errors && !alone) {
+    kept_error = one_line(message && *message ? message : "PETSc failed");
+    return code;
+  }
   if (alone && rank_in_world() != 0) std::this_thread::sleep_for(std::chrono::seconds(1));
   if (alone || rank_in_world() == 0) {
     std::string text = message ? message : "";
@@ -184,6 +190,28 @@ PetscSession::~PetscSession()
   PetscOptionsHasName(nullptr, nullptr, "-options_left", &asked);
   if (!asked) PetscOptionsSetValue(nullptr, "-options_left", "false");
   PetscFinalize();
+}
+
+KeptErrors::KeptErrors()
+{
+#if defined(PETSC_USE_DEBUG)
+  stack_size = petscstack.currentsize;
+#endif
+  keeps_errors = true;
+  kept_error.clear();
+}
+
+KeptErrors::~KeptErrors()
+{
+  keeps_errors = false;
+#if defined(PETSC_USE_DEBUG)
+  petscstack.currentsize = stack_size;
+#endif
+}
+
+const std::string &KeptErrors::text() const
+{
+  return kept_error;
 }
 
 void set_error_status(int status)

@@ -38,6 +38,22 @@ int error_status();
 void print_error(const std::string &text);
 void print_warning(const std::string &text); ///< "tribogel: warning: <text>", likewise
 
+/// While it lives, an error that all processes know is kept, not printed: for work whose failure is not the run's. One
+/// that a single process of several meets still ends them all.
+class KeptErrors
+{
+public:
+  KeptErrors();
+  ~KeptErrors();
+  KeptErrors(const KeptErrors &) = delete;
+  KeptErrors &operator=(const KeptErrors &) = delete;
+
+  const std::string &text() const; ///< the last one's, in one line
+
+private:
+  int stack_size = 0; ///< of PETSc's names of functions, in debug builds: an error leaves it as it was when it happened
+};
+
 /// All that PETSc would have printed for -help since its start: what each object says of its options when it reads
 /// them. From here on nothing is caught. To be called once, when the solver has been set up.
 PetscErrorCode TakePetscHelp(std::string &help);

@@ -34,7 +34,7 @@ REFUSALS = [
     ("misspelt option", ["-fricton_coefficients", "0,1e-3"], ["-fricton_coefficients = 0,1e-3",
                                                               "nearest is -friction_coefficients"]),
     ("two dashes", ["--top_radius", "9"], ["--top_radius = 9", "nearest is -top_radius"]),
-    ("option that is not built", ["-error_estimate", "true"], ["-error_estimate = true", "unknown"]),
+    ("error estimate neither true nor false", ["-error_estimate", "0.1"], ["-error_estimate = 0.1"]),
     ("restart of nothing", ["-restart", "old"], ["-restart = old", "does not exist"]),
     ("restart of a run without checkpoint", ["-restart", "a_run"], ["-restart = a_run", "does not exist"]),
     ("restart of a text", ["-restart", "a_text"], ["-restart = a_text", "no whole HDF5 file"]),

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <numbers>
 
@@ -262,6 +263,41 @@ TEST(Rheometer, ApparentCoefficientIsTheAreaMeanUnderUniformPressure)
   const double torque = uniform_pressure_torque(law, omega * R) * N * R;
   EXPECT_NEAR(apparent_coefficient(law, torque, N, R, omega), area_mean, 1e-15);
   EXPECT_NEAR(apparent_coefficient(law, -torque, N, R, -omega), area_mean, 1e-15); // the other sense of rotation
+}
+
+/// Midpoint sums over rings; what they leave out falls as the square of a ring's width.
+template <class Traction> std::array<double, 2> force_and_torque(double radius, const Traction &traction)
+{
+  constexpr int rings = 20000;
+  double force = 0, torque = 0;
+  for (int k = 0; k < rings; ++k) {
+    const double r = radius * (k + 0.5) / rings, area = 2 * std::numbers::pi * r * radius / rings;
+    force += traction(r) * area;
+    torque += traction(r) * area * r;
+  }
+  return {force, torque};
+}
+
+TEST(Rheometer, ViscousForceAndTorqueAreTheIntegralsOfEquations21And22)
+{
+  const double c = 0.037, omega = 0.21, R = 9.3;
+  const auto [force, torque] = force_and_torque(R, [&](double r) { return c * omega * r; });
+  EXPECT_NEAR(viscous_friction_force(c, omega, R) / force, 1, 1e-8);
+  EXPECT_NEAR(viscous_torque(c, omega, R) / torque, 1, 1e-8);
+  EXPECT_EQ(viscous_torque(c, -omega, R), viscous_torque(c, omega, R));
+  EXPECT_NEAR(gong_friction_force(viscous_torque(c, omega, R), R) / viscous_friction_force(c, omega, R), 1, 1e-15);
+  EXPECT_NEAR(gong_coefficient(torque, 4.7, R) / (force / 4.7), 1, 1e-8);
+}
+
+TEST(Rheometer, MeanAndTorqueOfALawAreTheIntegralsUnderUniformPressure)
+{
+  const double R = 9.3, omega = 0.21, N = 4.7, area = std::numbers::pi * R * R;
+  const auto [force, torque] = force_and_torque(R, [&](double r) { return mu(omega * r) * N / area; });
+  EXPECT_NEAR(mean_coefficient(mixed, R, omega) / (force / N), 1, 1e-8);
+  EXPECT_NEAR(torque_over_force(mixed, R, omega) / (torque / N), 1, 1e-8);
+  auto law = mixed.cast<Dual<1>>();
+  law.coefficients[2].d[0] = 1;
+  EXPECT_NEAR(torque_over_force(law, R, -omega).d[0] / (2 * R * std::pow(omega * R, 2.5) / 5.5), 1, 1e-15);
 }
 
 TEST(Rheometer, ApparentCoefficientIsEquation311WithItsFactorRestored)

@@ -82,6 +82,7 @@ struct OutputParameters {
   std::string directory = "tribogel-output";
   bool overwrite = false;
   bool restart = false;                                       ///< the directory holds a run that goes on
+  bool error_estimate = false;                                ///< of N and T at the phases' ends, by further runs
   double checkpoint_every = 600;                              ///< wall time between checkpoints [s]
   double wall_time = std::numeric_limits<double>::infinity(); ///< that the program may take [s]
 };

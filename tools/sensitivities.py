@@ -1,0 +1,307 @@
+"""Sensitivities of N and T to the parameters of a scene, for tools/sensitivity and other tools:
+
+    study = sensitivities.Study(program, options_files, further_options, output_directory)
+    study.run()                      # runs the program many times
+    study.write()                    # sensitivity.csv, sensitivity.md
+    study.rows, study.markdown()
+
+A parameter p is moved to p (1 + s) and p (1 - s) for two sizes of s; the relative sensitivity (dv/v)/(dp/p), in per cent per
+per cent, is the central difference over s, extrapolated from both sizes (error of order s^2), and its error is what the two
+differ by. Coefficients of friction that are 0 have no relative change: see `Term`.
+"""
+import concurrent.futures
+import csv
+import dataclasses
+import json
+import math
+import pathlib
+import re
+import subprocess
+
+from program import in_environment
+
+QUANTITIES = {"N": "normal_force_N", "T": "torque_Nmm"}
+NEWTON = 1e-7  # relative: below that differences of two runs mean nothing
+NOTHING = 1e-9  # a torque below this part of the largest N R is none
+
+
+class BadInput(Exception):
+    """What is asked for makes no sense; the text says why."""
+
+
+def text_of(values):
+    return ",".join(f"{value:.17g}" for value in values)
+
+
+def numbers_of(text):
+    return [float(word) for word in text.split(",")]
+
+
+@dataclasses.dataclass(frozen=True)
+class Scaled:
+    """Entries of one or several options that are scaled together. entry None: all of a list."""
+    name: str
+    meaning: str
+    options: tuple
+    entry: int = None
+    central, unit = True, "% per %"
+
+    def moved(self, scene, step):
+        words = []
+        for option in self.options:
+            values = numbers_of(scene.options[option])
+            chosen = range(len(values)) if self.entry is None else (self.entry,)
+            for k in chosen:
+                values[k] *= 1 + step
+            words += [f"-{option}", text_of(values)]
+        return words
+
+    def weight(self, scene, rate):
+        return 1.0
+
+
+@dataclasses.dataclass(frozen=True)
+class Term:
+    """A term b v^m of the friction law whose coefficient is 0. It is moved by `step` times mu at the mean speed of the
+    contact, v = 2/3 omega R, in the fastest phase. The sensitivity is per cent of T over per cent of mu at the mean speed
+    of the phase at hand: what a term does that adds 1 % to mu there. It can be compared with that of b1, which is then 1."""
+    name: str
+    meaning: str
+    exponent: float
+    unit = "% per % of mu at the mean speed"
+
+    @property
+    def central(self):
+        return self.exponent > 0  # less than no friction at rest is refused
+
+    def coefficient(self, scene, step):
+        speed = scene.mean_speed(scene.fastest)
+        return step * scene.friction(speed) / speed**self.exponent
+
+    def moved(self, scene, step):
+        coefficients, exponents = scene.law
+        exponents, coefficients = list(exponents), list(coefficients)
+        if self.exponent not in exponents:
+            exponents.append(self.exponent)
+            coefficients.append(0.0)
+        coefficients[exponents.index(self.exponent)] += self.coefficient(scene, step)
+        return ["-friction_coefficients", text_of(coefficients), "-friction_exponents", text_of(exponents)]
+
+    def weight(self, scene, rate):
+        """The change of mu at the mean speed of a phase, relative to mu there, for a step of 1."""
+        speed = scene.mean_speed(rate)
+        return self.coefficient(scene, 1.0) * speed**self.exponent / scene.friction(speed) if speed else math.nan
+
+
+class SceneOptions:
+    """The options of a run as summary.json resolves them."""
+
+    def __init__(self, summary):
+        self.options, self.phases = summary["options"], summary["phases"]
+        self.both = self.options["specimens"] == "both"
+        self.bodies = ("top", "bottom") if self.both else ("bottom",)
+        self.fastest = max((abs(phase["rate_rad_per_s"]) for phase in self.phases), default=0.0)
+        friction = self.both and self.options["friction_law"] == "polynomial"
+        self.law = tuple(tuple(numbers_of(self.options[name])) if friction else ()
+                         for name in ("friction_coefficients", "friction_exponents"))
+
+    def mean_speed(self, rate):
+        return 2 / 3 * abs(rate) * float(self.options["top_radius"])
+
+    def friction(self, speed):
+        return sum(b * speed**m for b, m in zip(*self.law))
+
+    def of_bodies(self, pattern):
+        """The options of that name of all bodies that have them."""
+        found = [name for name in self.options for body in self.bodies if re.fullmatch(f"{body}_{pattern}", name)
+                 and self.options[name] and not ("maxwell" in name and self.options[f"{body}_material"] == "hyperelastic")]
+        return tuple(sorted(found, reverse=True))  # top before bottom
+
+
+def geometry(scene):
+    if scene.options.get("mesh_file"):
+        return []
+    found = [Scaled(f"{body} {size}", f"{size} of the {body} gel", (f"{body}_{size}",))
+             for size in ("height", "radius") for body in scene.bodies]
+    return found + [Scaled("approach", "approach in all phases", ("schedule_approach",))]
+
+
+def materials(scene):
+    equilibrium, branch = scene.of_bodies("ogden_moduli"), scene.of_bodies(r"maxwell\d*_ogden_moduli")
+    found = [Scaled("G", "all shear moduli, both parts", equilibrium + branch),
+             Scaled("G equilibrium", "all moduli of the equilibrium part", equilibrium)]
+    if scene.both:
+        found += [Scaled(f"G {body}", f"all moduli of the {body} gel", tuple(o for o in equilibrium + branch
+                                                                            if o.startswith(body)))
+                  for body in scene.bodies]
+    terms = {len(numbers_of(scene.options[option])) for option in equilibrium}
+    if len(terms) == 1 and terms != {1}:
+        for k in range(*terms):
+            found.append(Scaled(f"G{k + 1}", f"equilibrium, modulus of term {k + 1}", equilibrium, k))
+        for k in range(*terms):
+            found.append(Scaled(f"alpha{k + 1}", f"equilibrium, exponent of term {k + 1}",
+                                scene.of_bodies("ogden_exponents"), k))
+    found.append(Scaled("K", "bulk modulus of the equilibrium part", scene.of_bodies("bulk_modulus")))
+    if branch:
+        viscosities = scene.of_bodies(r"maxwell\d*_viscosities")
+        found += [Scaled("G branch", "all moduli of the Maxwell branch", branch),
+                  Scaled("K branch", "bulk modulus of the branch", scene.of_bodies(r"maxwell\d*_bulk_modulus")),
+                  Scaled("eta_D", "deviatoric viscosity", viscosities, 0),
+                  Scaled("eta_V", "volumetric viscosity", viscosities, 1)]
+    return found
+
+
+def friction_terms(scene):
+    coefficients, exponents = scene.law
+    found = [Scaled(f"b (v^{m:g})", f"coefficient of v^{m:g}", ("friction_coefficients",), k)
+             for k, (b, m) in enumerate(zip(coefficients, exponents)) if b]
+    given = {m for b, m in zip(coefficients, exponents) if b}
+    if scene.fastest and found:
+        found += [Term(f"b (v^{m})", f"a term with v^{m}, there is none", m) for m in (0, 1, 2) if m not in given]
+    return found
+
+
+def parameters_of(scene):
+    return geometry(scene) + materials(scene) + friction_terms(scene)
+
+
+@dataclasses.dataclass
+class Row:
+    parameter: str
+    meaning: str
+    unit: str
+    phase: int
+    time_s: float
+    rate_rad_per_s: float
+    quantity: str
+    sensitivity: float  # extrapolated from both steps
+    error: float  # difference of the two
+    coarse_step: float
+    fine_step: float
+    mesh_kept: bool  # all runs have the same number of unknowns
+
+
+def differences(step, values, central):
+    """Derivative at 0 from values at +-step and +-step/2, or at 0, step/2 and step, and its error. `values` maps multiples of
+    the step to numbers."""
+    if central:
+        coarse, fine = (values[1] - values[-1]) / (2 * step), (values[0.5] - values[-0.5]) / step
+        return fine + (fine - coarse) / 3, abs(fine - coarse)
+    coarse, fine = (values[1] - values[0]) / step, (values[0.5] - values[0]) / (step / 2)
+    return 2 * fine - coarse, abs(fine - coarse)
+
+
+class Study:
+    """All runs of one scene, and what follows from them."""
+
+    def __init__(self, program, options_files, further, output, step=0.04, jobs=1, only=None, said=print):
+        self.program, self.further, self.output = program, list(further), pathlib.Path(output)
+        self.files = [word for path in options_files for word in ("-options_file", str(path))]
+        self.step, self.jobs, self.only, self.said = step, jobs, only, said
+        self.rows, self.failures, self.cpu_seconds, self.runs = [], [], 0.0, 0
+
+    def solve(self, name, words):
+        directory = self.output / "runs" / re.sub(r"[^A-Za-z0-9.+-]+", "_", name)
+        directory.mkdir(parents=True, exist_ok=True)
+        done = in_environment('"$@"', self.program, *self.files, *self.further, *words, "-output_directory", directory,
+                              "-overwrite", stdout=subprocess.DEVNULL, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                              text=True)
+        if done.returncode:
+            return None, (done.stderr.strip().splitlines() or [f"status {done.returncode}"])[-1]
+        return json.loads((directory / "summary.json").read_text(encoding="utf-8")), ""
+
+    def run(self):
+        base, failure = self.solve("base", [])
+        if not base:
+            raise BadInput(failure)
+        scene = SceneOptions(base)
+        parameters = parameters_of(scene)
+        if self.only:
+            unknown = set(self.only) - {p.name for p in parameters}
+            if unknown:
+                raise BadInput(f"no parameter {', '.join(sorted(unknown))}; allowed: "
+                               + ", ".join(p.name for p in parameters))
+            parameters = [p for p in parameters if p.name in self.only]
+        self.cpu_seconds, self.runs, self.base = base["cost"]["cpu_s"], 1, base
+        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
+            for number, rows in enumerate(pool.map(lambda p: self.vary(p, scene, base), parameters), 1):
+                self.rows += rows
+                if rows:
+                    self.said(f"{number}/{len(parameters)} {rows[0].parameter}: N at the end {rows[-2].sensitivity:+.4f}, "
+                              f"T {rows[-1].sensitivity:+.4f}")
+        for line in self.failures:
+            self.said(line)
+
+    def vary(self, parameter, scene, base):
+        multiples = (1, -1, 0.5, -0.5) if parameter.central else (1, 0.5)
+        found = {0: base}
+        for k in multiples:
+            summary, failure = self.solve(f"{parameter.name} {k:+g}", parameter.moved(scene, k * self.step))
+            if not summary:
+                self.failures.append(f"{parameter.name}: no number: {failure}")
+                return []
+            found[k] = summary
+            self.cpu_seconds += summary["cost"]["cpu_s"]
+            self.runs += 1
+        kept = len({summary["counts"]["unknowns"] for summary in found.values()}) == 1
+        return [self.row(parameter, scene, found, kept, phase, quantity)
+                for phase in range(len(scene.phases)) for quantity in QUANTITIES]
+
+    def row(self, parameter, scene, found, kept, phase, quantity):
+        at, column = scene.phases[phase], QUANTITIES[quantity]
+        values = {k: summary["phases"][phase][column] for k, summary in found.items()}
+        radius = float(scene.options["top_radius" if scene.both else "bottom_radius"])
+        force = max(abs(p["normal_force_N"]) for p in scene.phases)
+        size = abs(values[0])
+        weight = parameter.weight(scene, at["rate_rad_per_s"])
+        sensitivity = error = math.nan
+        if size > NOTHING * force * (radius if quantity == "T" else 1) and weight == weight:
+            sensitivity, error = differences(self.step, values, parameter.central)
+            sensitivity /= values[0] * weight
+            error = (error / size + NEWTON / self.step) / abs(weight)
+        return Row(parameter.name, parameter.meaning, parameter.unit, phase + 1, at["time_s"], at["rate_rad_per_s"],
+                   quantity, sensitivity, error, self.step, self.step / 2, kept)
+
+    def write(self):
+        with open(self.output / "sensitivity.csv", "w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file)
+            writer.writerow(field.name for field in dataclasses.fields(Row))
+            for row in self.rows:
+                writer.writerow(dataclasses.astuple(row))
+        (self.output / "sensitivity.md").write_text(self.markdown(), encoding="utf-8")
+
+    def columns(self):
+        """Phases and quantities that some parameter changes, those without a difference to the phase before left out."""
+        table = {}
+        for row in self.rows:
+            table.setdefault((row.quantity, row.phase), []).append(shown(row.sensitivity, row.error))
+        columns = []
+        for key in sorted(table):
+            before = table.get((key[0], key[1] - 1))
+            if any(cell != "-" for cell in table[key]) and table[key] != before:
+                columns.append(key)
+        return columns
+
+    def markdown(self):
+        columns = self.columns()
+        cells = {(row.parameter, row.quantity, row.phase): shown(row.sensitivity, row.error) for row in self.rows}
+        lines = ["| parameter | " + " | ".join(f"{quantity}, end of phase {phase}" for quantity, phase in columns) + " |",
+                 "|---" * (len(columns) + 1) + "|"]
+        for name, row in {row.parameter: row for row in self.rows}.items():
+            mark = "" if row.mesh_kept else " (mesh not the same)"
+            lines.append(f"| {name}: {row.meaning}{mark} | "
+                         + " | ".join(cells[name, quantity, phase] for quantity, phase in columns) + " |")
+        lines += ["", "Per cent per per cent; in brackets the error of the last digits, from two sizes of the change, "
+                  f"+-{100 * self.step:g} % and +-{50 * self.step:g} %. A phase that is left out has the numbers of the one before.",
+                  *sorted({f"{row.parameter}: {row.unit}." for row in self.rows if row.unit != Scaled.unit}),
+                  *self.failures, f"{self.runs} runs, {self.cpu_seconds:.0f} CPU s."]
+        return "\n".join(lines) + "\n"
+
+
+def shown(value, error):
+    """Value with the error in units of its last digit, in brackets: 2.713(4)."""
+    if value != value:
+        return "-"
+    digits = min(4, max(0, -math.floor(math.log10(max(error, 1e-4)))))
+    value = round(value, digits) + 0.0  # no -0
+    return f"{value:.{digits}f}({max(1, math.ceil(error * 10**digits - 1e-9)):d})"
