@@ -85,7 +85,7 @@ def errors(results):
         Figure(further_figures.mesh_errors(results),
                "Left: nested meshes against the limits extrapolated from them. Right: what a quarter of the step "
                "tolerance changes."),
-        Table(("1 rad/s, Fig. 6", *(f"{n} elements" for n in elements), "order", "limit", f"true error, {elements[1]}",
+        Table(("1 rad/s, Fig. 6", *(f"{n} elements" for n in elements), "order", "limit", f"{elements[1]} elements off by",
                "stated ± (mesh)"), rows,
               f"The mesh with {elements[1]} elements along the radius is the one shown throughout. Its ± in this "
               "report is its difference from the next coarser one, as if errors halved with the edge; where the order "

@@ -114,6 +114,8 @@ def figure7(results):
     rows = [(label, *(over(results, "fig06", name, phase).text() for phase in (3, 4, 5))) for label, name in names.items()]
     at_end = results.number("fig06", lambda r: r.end(5, "mu_apparent"))
     run = results.shown("fig06")
+    wider = run.end(5, "contact_radius_mm") / run.radius
+    uniform = run.torque_over_force() / rheometer.torque_ratio(*run.law, run.radius, run.rates()[-1])
     by_pressure, by_area = (run.end(5, "mu_apparent") / run.end(5, f"mu_{name}_weighted") for name in ("pressure", "area"))
     return [
         Heading("Fig. 7: apparent, mean and weighted coefficient", "fig07"),
@@ -124,14 +126,13 @@ def figure7(results):
         Table(("(3.11) over the coefficient", "0.01 rad/s", "0.1 rad/s", "1 rad/s"), rows,
               f"mu_apparent at 1 rad/s: {at_end.text(scale=1e3)} 10⁻³."),
         Table(("(3.11) over the coefficient at 1 rad/s", *names), other_laws(results, names.values()), "Other laws:"),
-        Text(f"The statement is true for the weight p dA, by {per_cent(by_pressure)}, and for no other: weighted by "
-             f"area the coefficient is higher than (3.11), which then is {per_cent(by_area, 1)} off, because the "
-             "contact is wider than Rmin and speed grows outwards where there is little pressure. “Quadrature "
-             "weights” alone are the area's; with a contact that does not reach beyond Rmin the order would be the "
-             "other way round. The mean over the nodes has no limit under refinement: it depends on how the mesh is "
-             "graded. Nor is it true for every law: where a constant b0 matters, as in case 3 of Table 2, (3.11) is "
-             "too low even beside the weight p dA, because pressure gathers inside and gives less torque than a "
-             "uniform one."),
+        Text(f"The statement is true for the weight p dA, by {per_cent(by_pressure)}, and not for dA ({per_cent(by_area, 1)}), "
+             f"which “quadrature weights” alone would be. The area's mean of ω r is {wider:.3f} times that of (3.11), since "
+             f"the contact is as much wider than Rmin; and T is {uniform:.3f} of a uniform pressure's, since pressure "
+             f"gathers inside: 1/{wider:.3f} · {uniform:.3f} = {uniform / wider:.3f}. Beside the weight p dA both effects "
+             "nearly cancel. The mean over the nodes has no limit under refinement: it depends on how the mesh is "
+             "graded. Nor is the statement true for every law: where a constant b0 matters, as in case 3 of Table 2, (3.11) is "
+             "too low beside the weight p dA too, because b0 does not grow with the wider contact."),
     ]
 
 
