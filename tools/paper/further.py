@@ -105,8 +105,9 @@ def own_estimate(results):
         for column in ("normal_force_N", "torque_Nmm"):
             here = results.number("fig06", lambda r, k=phase, c=column: r.end(k, c))
             there = estimate["phases"][phase - 1][column]
-            cells += ["-"] * 4 if here.value == 0 else [
-                f"{here.mesh:.2g}", f"{there['mesh']['error']:.2g}", f"{here.time:.1g}", f"{there['time']['error']:.1g}"]
+            own = [there[kind]["error"] for kind in ("mesh", "time")]  # null where there is no companion to compare with
+            pairs = ((here.mesh, own[0]), (here.time, own[1]))
+            cells += ["-" if x is None or here.value == 0 else f"{x:.1g}" for pair in pairs for x in pair]
         rows.append((end, *cells))
     names = ("± (mesh)", "-error_estimate", "± (time)", "-error_estimate")
     return [

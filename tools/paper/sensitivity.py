@@ -43,7 +43,7 @@ def read(output):
 
 
 def figure(results, found):
-    picture, (axes,) = new_figure(1, height=0.6 + 0.24 * len(found))
+    picture, (axes,) = new_figure(1, height=1.8 + 0.2 * len(found))
     places = np.arange(len(found))[::-1]
     for (quantity, phase, label), colour, side in zip(COLUMNS, (GREY, BLUE, RED), (0.27, 0, -0.27)):
         values = [numbers.get((quantity, phase), (np.nan,))[0] for _, numbers in found.values()]
