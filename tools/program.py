@@ -1,5 +1,6 @@
 """The program that the tools run: built for this machine when needed, in the environment of tools/environment."""
 import pathlib
+import resource
 import subprocess
 
 TOOLS = pathlib.Path(__file__).resolve().parent
@@ -15,6 +16,14 @@ def in_environment(command, *arguments, **how):
     memory peak of a process on to what replaces it, and that of a tool is larger than a small run's."""
     return subprocess.run(["bash", "-uc", f'. "$0"; {command}; exit $?', str(TOOLS / "environment"), *arguments],
                           check=False, **how)
+
+
+def cpu_seconds(run, *words, **how):
+    """User and system time of the processes that a function starts and waits for, and what it returns."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    result = run(*words, **how)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, result
 
 
 def program_of(given):

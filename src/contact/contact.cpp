@@ -1,5 +1,8 @@
 #include "contact/contact.hpp"
 
+#include <algorithm>
+#include <set>
+
 namespace tribogel
 {
 
@@ -7,27 +10,47 @@ namespace
 {
 
 /// The lower half of a wall, which is nearer to the other gel than to its own plate; `taken` marks its nodes.
-Surface lower_half(const Surface &wall, std::vector<bool> &taken)
+Surface lower_half(const Surface &wall, int axial, std::vector<bool> &taken)
 {
-  const double foot = wall.node[wall.facet.front()[0]].X[1], head = wall.node[wall.facet.back()[1]].X[1];
+  const auto height = [&](int a) { return wall.node[static_cast<std::size_t>(a)].X[axial]; };
+  double foot = height(0), head = height(0);
+  for (int a = 0; a < static_cast<int>(wall.node.size()); ++a) {
+    foot = std::min(foot, height(a));
+    head = std::max(head, height(a));
+  }
+  std::vector<bool> used(wall.node.size(), false);
+  std::vector<std::array<int, 9>> facets;
+  for (const auto &facet : wall.facet) {
+    if (std::any_of(facet.begin(), facet.end(), [&](int a) { return a >= 0 && height(a) > 0.5 * (foot + head); }))
+      continue;
+    facets.push_back(facet);
+    for (int a : facet)
+      if (a >= 0) used[a] = true;
+  }
   Surface half;
   std::vector<int> place(wall.node.size(), -1);
-  for (const auto &facet : wall.facet) {
-    if (wall.node[facet[1]].X[1] > 0.5 * (foot + head)) break;
-    std::array<int, 9> own;
-    own.fill(-1);
-    for (int b : {0, 2, 1}) {
-      if (facet[b] < 0) continue;
-      if (place[facet[b]] < 0) {
-        place[facet[b]] = static_cast<int>(half.node.size());
-        half.node.push_back(wall.node[facet[b]]);
-        taken[facet[b]] = true;
-      }
-      own[b] = place[facet[b]];
-    }
-    half.facet.push_back(own);
+  for (std::size_t a = 0; a < used.size(); ++a) {
+    if (!used[a]) continue;
+    taken[a] = true;
+    place[a] = static_cast<int>(half.node.size());
+    half.node.push_back(wall.node[a]);
   }
+  for (auto &facet : facets)
+    for (int &a : facet)
+      if (a >= 0) a = place[a];
+  half.facet = std::move(facets);
   return half;
+}
+
+/// Nodes of a wall that belong to the lower face too: the crease. A node is known by its unknowns.
+std::vector<bool> crease_of(const Surface &wall, const Surface &face)
+{
+  std::set<PetscInt> unknowns;
+  for (const SurfaceNode &node : face.node) unknowns.insert(node.displacement[0]);
+  std::vector<bool> shared;
+  for (const SurfaceNode &node : wall.node)
+    shared.push_back(node.displacement[0] >= 0 && unknowns.count(node.displacement[0]) > 0);
+  return shared;
 }
 
 } // namespace
@@ -38,21 +61,18 @@ PetscErrorCode Contact::SetUp(MPI_Comm on, const Mesh &mesh, const Scene &scene)
   comm = on;
   if (scene.has_top) {
     gels.emplace_back();
-    PetscCall(gels.back().SetUp(comm, mesh, scene, mesh.slave, false));
+    PetscCall(gels.back().SetUp(comm, mesh, scene, mesh.slave, {}));
   }
   for (int body : {bottom_body, top_body}) {
     const Surface &wall = mesh.wall[body];
     if (wall.facet.empty()) continue;
     std::vector<bool> taken(wall.node.size(), false);
-    if (mesh.dim == 3) { // the crease belongs to the lower face; no wall rolls on
-      for (std::size_t a = 0; a < wall.node.size(); ++a)
-        taken[a] = wall.node[a].local >= 0 && mesh.nodes[wall.node[a].local].on(Side::slave);
-    } else if (body == top_body) {
-      taken[wall.facet.front()[0]] = true; // the crease
-      const Surface lower = lower_half(wall, taken);
+    if (body == top_body) {
+      taken = crease_of(wall, mesh.slave);
+      const Surface lower = lower_half(wall, mesh.dim - 1, taken);
       if (!lower.facet.empty()) {
         gels.emplace_back();
-        PetscCall(gels.back().SetUp(comm, mesh, scene, lower, true));
+        PetscCall(gels.back().SetUp(comm, mesh, scene, lower, crease_of(lower, mesh.slave)));
       }
     }
     plates.emplace_back();

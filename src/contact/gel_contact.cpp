@@ -1,29 +1,12 @@
 #include "contact/gel_contact.hpp"
 
-#include "contact/surface_reference.hpp"
-#include "tribogel/contact/axisymmetric_contact.hpp"
-#include "tribogel/contact/rolling.hpp"
-#include "tribogel/contact/solid_contact.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
-#include <variant>
 
 namespace tribogel
 {
-
-struct ContactModel {
-  std::variant<AxisymmetricContact, SolidContact> contact;
-  ContactParameters parameters; ///< of a curve
-
-  AxisymmetricContact &curve() { return std::get<AxisymmetricContact>(contact); }
-};
-
-GelContact::GelContact() : model(std::make_unique<ContactModel>()) {}
-GelContact::GelContact(GelContact &&) noexcept = default;
-GelContact::~GelContact() = default;
 
 namespace
 {
@@ -31,22 +14,6 @@ namespace
 /// A slave facet that hangs over the master's edge presses on the master's extension; that is a good picture of a rim
 /// that only just overhangs, and of nothing else.
 constexpr double largest_overhang = 0.1; // of the slave's length or area
-
-/// Rows and columns of a node's block in the order of NodeBlock::jacobian.
-ContactBlock unknowns_of(int a, const NodeBlock &block)
-{
-  ContactBlock all;
-  for (int k = 0; k < block.slave_rows; ++k)
-    all.rows.push_back({ContactUnknown::slave, block.slave_nodes[static_cast<std::size_t>(k)]});
-  for (int b : block.slave_nodes) all.columns.push_back({ContactUnknown::slave, b});
-  for (int m : block.master_nodes) {
-    all.rows.push_back({ContactUnknown::master, m});
-    all.columns.push_back({ContactUnknown::master, m});
-  }
-  all.rows.push_back({ContactUnknown::multiplier, a});
-  all.columns.push_back({ContactUnknown::multiplier, a});
-  return all;
-}
 
 std::string describe(MortarStatus status, int dim, const SurfaceNode &near, bool wall)
 {
@@ -57,47 +24,10 @@ std::string describe(MortarStatus status, int dim, const SurfaceNode &near, bool
          (wall ? "side wall" : "lower face");
 }
 
-/// The Jacobian's blocks of slave nodes first <= a < last, and the rows and columns they can have; a curve's come node
-/// by node. A wall's first node has its multiplier on the face.
-template <class Emit>
-void emit_jacobian(const AxisymmetricContact &contact, const Surface &slave, int first, int last,
-                   const PolynomialFriction<double> &law, const Emit &emit)
-{
-  NodeBlock block;
-  for (int a = first; a < last; ++a) {
-    if (!slave.node[a].multiplier) continue;
-    contact.node(a, law, block);
-    ContactBlock all = unknowns_of(a, block);
-    all.values = block.jacobian;
-    emit(all);
-  }
-}
-
-template <class Emit>
-void emit_jacobian(const SolidContact &contact, const Surface &, int, int, const PolynomialFriction<double> &law,
-                   const Emit &emit)
-{
-  contact.jacobian(law, emit);
-}
-
-template <class Emit>
-void emit_pattern(const AxisymmetricContact &contact, const Surface &slave, FacetPairs pairs, int first, int last,
-                  const Emit &emit)
-{
-  for (int a = first; a < last; ++a)
-    if (slave.node[a].multiplier) emit(unknowns_of(a, contact.pattern(a, pairs)));
-}
-
-template <class Emit>
-void emit_pattern(const SolidContact &contact, const Surface &, const SolidContact::Pairs &pairs, int first, int last,
-                  const Emit &emit)
-{
-  contact.pattern(pairs, first, last, emit);
-}
-
 } // namespace
 
-PetscErrorCode GelContact::SetUp(MPI_Comm on, const Mesh &both, const Scene &scene, Surface surface, bool is_wall)
+PetscErrorCode GelContact::SetUp(MPI_Comm on, const Mesh &both, const Scene &scene, Surface surface,
+                                 std::vector<bool> on_crease)
 {
   PetscFunctionBeginUser;
   comm = on;
@@ -109,26 +39,16 @@ PetscErrorCode GelContact::SetUp(MPI_Comm on, const Mesh &both, const Scene &sce
   PetscCallMPI(MPI_Comm_size(comm, &size));
   mesh = &both;
   slave = std::move(surface);
-  wall = is_wall;
-  friction = scene.friction;
-  model->parameters.order = mesh->order;
-  model->parameters.twist_length = scene.twist_length();
-  model->parameters.softer_modulus =
-      std::min(scene.top.material.equilibrium.shear_modulus(), scene.bottom.material.equilibrium.shear_modulus());
-  model->parameters.starts_at_crease = wall;
-  if (wall) slave.node.front().multiplier = false; // it belongs to the lower face
-  for (const SurfaceNode &node : slave.node) model->parameters.carries_multiplier.push_back(node.multiplier);
-  if (mesh->dim == 2)
-    Touch(wall ? 0 : static_cast<int>(slave.facet.size()));
-  else
-    model->contact = SolidContact(
-        SolidGeometry(quads_of(slave), quads_of(mesh->master),
-                      {model->parameters.order, model->parameters.softer_modulus, model->parameters.carries_multiplier,
-                       scene.contact_integration == ContactIntegration::segments}));
+  for (std::size_t a = 0; a < on_crease.size(); ++a)
+    if (on_crease[a]) { // its multiplier belongs to the lower face
+      slave.node[a].multiplier = false;
+      slave.node[a].traction.fill(-1);
+    }
+  model.emplace(both, scene, slave, std::move(on_crease));
   const auto nodes = static_cast<int>(slave.node.size());
   first = static_cast<int>(static_cast<long>(nodes) * rank / size);
   last = static_cast<int>(static_cast<long>(nodes) * (rank + 1) / size);
-  margin = std::visit([](const auto &operation) { return operation.facet_size(); }, model->contact);
+  margin = model->facet_size();
 
   ContactState<double> rest;
   const std::vector<double> zero(9 * (slave.node.size() + mesh->master.node.size()), 0.0);
@@ -136,42 +56,33 @@ PetscErrorCode GelContact::SetUp(MPI_Comm on, const Mesh &both, const Scene &sce
   touching.top_travel = -scene.initial_gap;
   touching.top_axis = scene.misalignment.offset;
   Unpack(touching, zero, 1, rest);
-  pattern = std::visit([&](const auto &operation) { return operation.candidate_pairs(rest, margin); }, model->contact);
+  pattern = model->candidate_pairs(rest, margin);
   PetscFunctionReturn(0);
-}
-
-/// Rebuilds the operator of a curve for contact of the first `facets` slave facets.
-void GelContact::Touch(int facets)
-{
-  model->parameters.facets_in_contact = facets;
-  model->contact = AxisymmetricContact(ContactGeometry(chain_of(slave), chain_of(mesh->master), model->parameters));
 }
 
 PetscErrorCode GelContact::BeginStep(const PlateFrames &frames, const double *U)
 {
   ContactState<double> state;
   PetscFunctionBeginUser;
-  if (!wall) PetscFunctionReturn(0);
+  if (!model->is_wall()) PetscFunctionReturn(0);
   PetscCall(Gather(frames, U, nullptr, 1, state));
-  const ContactGeometry &geometry = model->curve().reference();
-  const LineChain whole(geometry.slave.facets, mesh->order + 1, static_cast<int>(geometry.slave.X.size()));
-  int facets = rolling_facets(whole, positions(geometry.slave, state.slave), geometry.master_chain,
-                              positions(geometry.master, state.master));
-  if (facets != geometry.slave_chain.facet_count()) Touch(facets);
-  while (facets > 0) { // only facets that can be projected now
-    const MortarReport report = model->curve().update(state, model->curve().candidate_pairs(state, 0), false);
-    if (report.status == MortarStatus::ok) break;
-    facets = report.facet;
-    Touch(facets);
+  model->touch(model->rolling(state));
+  for (;;) { // only facets that can be projected now
+    const auto nodes = static_cast<int>(slave.node.size());
+    const MortarReport report = model->update(state, model->candidate_pairs(state, 0), false, 0, nodes);
+    if (report.failed.empty()) break;
+    model->touch(model->touching_without(report.failed));
   }
-  failed_facet = facets;
+  failed.clear();
   PetscFunctionReturn(0);
 }
 
-/// A wall facet that the last attempt could not project sits out the next.
+/// Wall facets that the last attempt could not project sit out the next.
 void GelContact::BeginAttempt()
 {
-  if (wall && failed_facet < model->curve().reference().slave_chain.facet_count()) Touch(failed_facet);
+  if (!model->is_wall() || failed.empty()) return;
+  model->touch(model->touching_without(failed));
+  failed.clear();
 }
 
 /// The nine values of each node (u, rate, multiplier; slave nodes first) as the model wants them.
@@ -226,31 +137,41 @@ PetscErrorCode GelContact::Evaluate(const ContactState<double> &state, bool deri
 {
   PetscFunctionBeginUser;
   PetscCall(PetscLogEventBegin(search_event, 0, 0, 0, 0));
-  const auto pairs =
-      std::visit([&](const auto &operation) { return operation.candidate_pairs(state, 0); }, model->contact);
+  const auto pairs = model->candidate_pairs(state, 0);
   PetscCall(PetscLogEventEnd(search_event, 0, 0, 0, 0));
   PetscCall(PetscLogEventBegin(mortar_event, 0, 0, 0, 0));
-  const MortarReport report = std::visit(
-      [&](auto &operation) { return operation.update(state, pairs, derivatives, first, last); }, model->contact);
+  const MortarReport report = model->update(state, pairs, derivatives, first, last);
   PetscCall(PetscLogEventEnd(mortar_event, 0, 0, 0, 0));
-  struct {
-    int status, facet;
-  } worst{static_cast<int>(report.status), report.facet};
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_2INT, MPI_MAXLOC, comm));
   // What of the wall lies beyond the master's edge is far from it, or rolls on the extension of its end.
-  double beyond = wall ? 0 : report.overhang;
+  double beyond = model->is_wall() ? 0 : report.overhang;
   PetscCallMPI(MPI_Allreduce(&beyond, &overhang, 1, MPI_DOUBLE, MPI_SUM, comm));
-  if (worst.status != static_cast<int>(MortarStatus::ok)) {
-    const auto &facet = slave.facet[static_cast<std::size_t>(worst.facet)];
-    failure = describe(static_cast<MortarStatus>(worst.status), mesh->dim, slave.node[facet[0]], wall);
-    failed_facet = worst.facet;
-  } else if (overhang > largest_overhang *
-                            std::visit([](const auto &operation) { return operation.slave_size(); }, model->contact)) {
+  PetscCall(ShareFailure(report, failure));
+  if (failure.empty() && overhang > largest_overhang * model->slave_size()) {
     std::ostringstream text;
     text << "the top gel hangs over the edge of the bottom gel by " << overhang << (mesh->dim == 2 ? " mm" : " mm^2")
          << ", more than " << 100 * largest_overhang << " % of its face";
     failure = text.str();
   }
+  PetscFunctionReturn(0);
+}
+
+/// Every rank learns which facets failed on any.
+PetscErrorCode GelContact::ShareFailure(const MortarReport &report, std::string &failure)
+{
+  PetscFunctionBeginUser;
+  struct {
+    int status, facet;
+  } worst{static_cast<int>(report.status), report.failed.empty() ? 0 : report.failed.front()};
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_2INT, MPI_MAXLOC, comm));
+  if (worst.status == static_cast<int>(MortarStatus::ok)) PetscFunctionReturn(0);
+  const auto &facet = slave.facet[static_cast<std::size_t>(worst.facet)];
+  failure = describe(static_cast<MortarStatus>(worst.status), mesh->dim, slave.node[facet[0]], model->is_wall());
+  std::vector<int> marks(slave.facet.size(), 0);
+  for (int f : report.failed) marks[f] = 1;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, marks.data(), static_cast<int>(marks.size()), MPI_INT, MPI_MAX, comm));
+  failed.clear();
+  for (std::size_t f = 0; f < marks.size(); ++f)
+    if (marks[f]) failed.push_back(static_cast<int>(f));
   PetscFunctionReturn(0);
 }
 
@@ -275,13 +196,9 @@ PetscErrorCode GelContact::AddResidual(const PlateFrames &frames, const double *
   for (int a = first; a < last; ++a) {
     if (!slave.node[a].multiplier) continue;
     const Vector3<double> &lambda = state.multiplier[a];
-    const double D = std::visit(
-        [&](const auto &operation) {
-          operation.node(a, friction, block);
-          const auto &constants = operation.constants(a);
-          return constants.carries ? constants.weight() : constants.extent;
-        },
-        model->contact);
+    model->node(a, block);
+    const SlaveNode &constants = model->constants(a);
+    const double D = constants.carries ? constants.weight() : constants.extent;
     // In the half plane the tangential condition is one of its own, in 3-D friction acts in all directions.
     const double in_plane = D * (mesh->dim == 2 ? std::hypot(lambda[0], lambda[2]) : lambda.norm());
     const double extent[3] = {in_plane, mesh->dim == 2 ? D * std::abs(lambda[1]) : in_plane, in_plane};
@@ -349,8 +266,7 @@ PetscErrorCode GelContact::AddJacobian(const PlateFrames &frames, const double *
   PetscCall(Evaluate(state, true, failure));
   if (!failure.empty()) PetscFunctionReturn(0);
   const auto add = [&](const ContactBlock &block) { worst = std::max(worst, Add(block, A)); };
-  std::visit([&](const auto &operation) { emit_jacobian(operation, slave, first, last, friction, add); },
-             model->contact);
+  model->jacobian(first, last, add);
   PetscCall(worst);
   PetscFunctionReturn(0);
 }
@@ -360,12 +276,9 @@ PetscErrorCode GelContact::UpdateCandidates(const PlateFrames &frames, const dou
   ContactState<double> state;
   PetscFunctionBeginUser;
   PetscCall(Gather(frames, U, nullptr, 1, state));
-  const auto candidates = [&](double reach) {
-    return std::visit([&](const auto &operation) { return operation.candidate_pairs(state, reach); }, model->contact);
-  };
-  const auto pairs = candidates(0);
+  const auto pairs = model->candidate_pairs(state, 0);
   covered = std::includes(pattern.begin(), pattern.end(), pairs.begin(), pairs.end());
-  if (!covered) pattern = candidates(margin);
+  if (!covered) pattern = model->candidate_pairs(state, margin);
   PetscFunctionReturn(0);
 }
 
@@ -374,7 +287,7 @@ PetscErrorCode GelContact::AddPattern(Mat A) const
   PetscErrorCode worst = 0;
   PetscFunctionBeginUser;
   const auto add = [&](const ContactBlock &block) { worst = std::max(worst, Add(block, A)); };
-  std::visit([&](const auto &operation) { emit_pattern(operation, slave, pattern, first, last, add); }, model->contact);
+  model->pattern(pattern, first, last, add);
   PetscCall(worst);
   PetscFunctionReturn(0);
 }
@@ -387,12 +300,8 @@ void GelContact::AddRoundOff(double *magnitude) const
   for (std::size_t a = 0; a < slave.node.size(); ++a) {
     const SurfaceNode &node = slave.node[a];
     if (node.local < 0 || !node.multiplier) continue;
-    const double stiffness = std::visit(
-        [&](const auto &operation) {
-          const auto &constants = operation.constants(static_cast<int>(a));
-          return constants.D * constants.c_N;
-        },
-        model->contact);
+    const SlaveNode &constants = model->constants(static_cast<int>(a));
+    const double stiffness = constants.D * constants.c_N;
     const PetscInt row = mesh->nodes[node.local].traction;
     for (int i = 0; i < 3; ++i) magnitude[row + i] += std::numeric_limits<double>::epsilon() * stiffness * extent;
   }
@@ -402,31 +311,24 @@ std::vector<GelContact::Weight> GelContact::weights() const
 {
   std::vector<Weight> all;
   for (int a = 0; a < static_cast<int>(slave.node.size()); ++a)
-    std::visit(
-        [&](const auto &operation) {
-          all.push_back({operation.constants(a).carries, operation.constants(a).D});
-        },
-        model->contact);
+    all.push_back({model->constants(a).carries, model->constants(a).D});
   return all;
 }
 
 NodeResult GelContact::result(int a) const
 {
-  return std::visit([&](const auto &operation) { return operation.result(a, friction); }, model->contact);
+  return model->result(a);
 }
 
 std::vector<ContactStatus> GelContact::statuses() const
 {
   std::vector<ContactStatus> all;
   NodeBlock block;
-  for (int a = 0; a < static_cast<int>(slave.node.size()); ++a)
-    std::visit(
-        [&](const auto &operation) {
-          if (!operation.constants(a).carries) return;
-          operation.node(a, friction, block);
-          all.push_back(block.status);
-        },
-        model->contact);
+  for (int a = 0; a < static_cast<int>(slave.node.size()); ++a) {
+    if (!model->constants(a).carries) continue;
+    model->node(a, block);
+    all.push_back(block.status);
+  }
   return all;
 }
 
@@ -438,26 +340,23 @@ PetscErrorCode GelContact::Results(const PlateFrames &frames, const double *U, c
   PetscCall(Gather(frames, U, Udot, 1, state));
   results = {};
   force = torque = 0;
-  std::visit(
-      [&](auto &operation) {
-        operation.update(state, operation.candidate_pairs(state, 0), false);
-        for (int a = 0; a < static_cast<int>(slave.node.size()); ++a) {
-          NodeResult result = operation.result(a, friction);
-          if (!result.carries && slave.node[a].multiplier) { // a part of the wall that meets nothing
-            result.carries = true;
-            result.pressure = 0;
-            result.nominal = result.cauchy = Vector3<double>::Zero();
-          }
-          results.nodes.push_back(result);
-          results.slave.push_back(operation.slave_place(a));
-          const auto [axial, turning] = operation.resultant(a);
-          force += axial;
-          torque -= turning;
-        }
-        for (int b = 0; b < static_cast<int>(mesh->master.node.size()); ++b)
-          results.master.push_back(operation.master_place(b));
-      },
-      model->contact);
+  const auto nodes = static_cast<int>(slave.node.size());
+  model->update(state, model->candidate_pairs(state, 0), false, 0, nodes);
+  results.on_crease = model->on_crease();
+  for (int a = 0; a < nodes; ++a) {
+    NodeResult result = model->result(a);
+    if (!result.carries && slave.node[a].multiplier) { // a part of the wall that meets nothing
+      result.carries = true;
+      result.pressure = 0;
+      result.nominal = result.cauchy = Vector3<double>::Zero();
+    }
+    results.nodes.push_back(result);
+    results.slave.push_back(model->slave_place(a));
+    const auto [axial, turning] = model->resultant(a);
+    force += axial;
+    torque -= turning;
+  }
+  for (int b = 0; b < static_cast<int>(mesh->master.node.size()); ++b) results.master.push_back(model->master_place(b));
   PetscFunctionReturn(0);
 }
 

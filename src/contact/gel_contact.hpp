@@ -3,14 +3,11 @@
 /// nodes are shared out evenly, whatever the bulk's partition is, and the forces go home by one reduction.
 #pragma once
 
+#include "contact/contact_model.hpp"
 #include "contact/plate_frames.hpp"
-#include "mesh/mesh.hpp"
-#include "tribogel/contact/report.hpp"
-#include "tribogel/contact/state.hpp"
 
-#include <memory>
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace tribogel
@@ -20,20 +17,14 @@ namespace tribogel
 struct SurfaceResults {
   std::vector<NodeResult> nodes;           ///< of the slave
   std::vector<SurfacePlace> slave, master; ///< where the nodes are
+  std::vector<bool> on_crease;             ///< of a wall: nodes that belong to the lower face; empty on that
 };
-
-/// The contact operator, a curve's or a solid's: its templates are most of what it takes to compile.
-struct ContactModel;
 
 class GelContact
 {
 public:
-  GelContact();
-  GelContact(GelContact &&) noexcept;
-  ~GelContact();
-
-  /// `wall`: the slave is a side wall, which starts at the crease with the lower face.
-  PetscErrorCode SetUp(MPI_Comm comm, const Mesh &mesh, const Scene &scene, Surface slave, bool wall);
+  /// `on_crease` marks the nodes of a side wall that belong to the lower face; empty: the slave is that face.
+  PetscErrorCode SetUp(MPI_Comm comm, const Mesh &mesh, const Scene &scene, Surface slave, std::vector<bool> on_crease);
 
   /// Before a step from U: which facets of a wall may touch during it. Collective.
   PetscErrorCode BeginStep(const PlateFrames &frames, const double *U);
@@ -87,19 +78,17 @@ private:
   PetscErrorCode Evaluate(const ContactState<double> &state, bool derivatives, std::string &failure);
   void Indices(const std::vector<ContactUnknown> &unknowns, std::vector<PetscInt> &indices) const;
   PetscErrorCode Add(const ContactBlock &block, Mat A) const;
-  void Touch(int facets);
+  PetscErrorCode ShareFailure(const MortarReport &report, std::string &failure);
 
   MPI_Comm comm = MPI_COMM_NULL;
   int rank = 0, size = 1;
   int first = 0, last = 0; ///< this rank's share of the slave nodes
   const Mesh *mesh = nullptr;
   Surface slave;
-  bool wall = false;
-  int failed_facet = 0; ///< first wall facet that could not be evaluated in this step
-  PolynomialFriction<double> friction;
-  std::unique_ptr<ContactModel> model;
-  std::vector<std::pair<int, int>> pattern; ///< pairs of facets that the matrix has room for
-  double margin = 0;                        ///< sliding that the pattern allows for [mm]
+  std::optional<ContactModel> model;
+  std::vector<int> failed;     ///< wall facets that could not be evaluated in the last attempt
+  ContactModel::Pairs pattern; ///< pairs of facets that the matrix has room for
+  double margin = 0;           ///< sliding that the pattern allows for [mm]
   PetscLogEvent search_event = 0, mortar_event = 0;
 };
 

@@ -111,10 +111,11 @@ ProfileRow row_at(const char *surface, const SurfacePlace &place, double rotatio
   return row;
 }
 
-void tabulate(const Problem &problem, const SurfaceResults &surface, bool wall, std::vector<ProfileRow> &profile)
+void tabulate(const Problem &problem, const SurfaceResults &surface, std::vector<ProfileRow> &profile)
 {
   const double rotation = problem.phase().rotation(problem.state.time);
-  for (std::size_t a = wall ? 1 : 0; a < surface.nodes.size(); ++a) { // a wall starts at a node of the face
+  for (std::size_t a = 0; a < surface.nodes.size(); ++a) {
+    if (!surface.on_crease.empty() && surface.on_crease[a]) continue; // a node of the face
     ProfileRow row = row_at("top", surface.slave[a], rotation);
     const NodeResult &node = surface.nodes[a];
     if (node.carries) {
@@ -133,7 +134,7 @@ void tabulate(const Problem &problem, const SurfaceResults &surface, bool wall, 
 /// outwards and upwards.
 void tabulate(const Problem &problem, const std::vector<SurfaceResults> &surfaces, std::vector<ProfileRow> &profile)
 {
-  for (const SurfaceResults &surface : surfaces) tabulate(problem, surface, &surface != &surfaces.front(), profile);
+  for (const SurfaceResults &surface : surfaces) tabulate(problem, surface, profile);
   const double rotation = problem.scene.bottom_plate_rate * problem.state.time;
   for (const SurfacePlace &place : surfaces.front().master) profile.push_back(row_at("bottom", place, rotation));
 }

@@ -95,8 +95,6 @@ void read_friction(const OptionReader &reader, SceneInput &input)
   const double a = reader.real("-friction_pressure_exponent"), floor = reader.real("-friction_pressure_floor");
   const auto speeds = read_speed_range(reader);
   if (!input.scene.has_top) return;
-  if (polynomial && input.scene.model == Model::solid && a != 1)
-    refuse("-friction_pressure_exponent", to_text(a), "allowed: 1 with -model solid");
   if (polynomial) {
     input.scene.friction = PolynomialFriction<double>{b, m, a, floor};
     input.scene.friction_speeds = speeds;

@@ -152,8 +152,7 @@ inline MortarReport AxisymmetricContact::update(const ContactState<double> &stat
     } else
       facets[f] = facet_mortar<double>(geometry, f, candidates, x, n, y);
     if (facets[f].status == MortarStatus::ok && is_folded(f)) facets[f].status = MortarStatus::folded;
-    if (facets[f].status != MortarStatus::ok && report.status == MortarStatus::ok)
-      report.status = facets[f].status, report.facet = f;
+    if (facets[f].status != MortarStatus::ok) report.add_failure(facets[f].status, f);
     const int outer = chain.facets[f][1];
     if (outer >= first && outer < last) report.overhang += facets[f].overhang;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tribogel/contact/axisymmetric_state.hpp"
+#include "tribogel/contact/slave_node.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -23,16 +24,9 @@ struct ContactParameters {
 };
 
 struct ContactGeometry {
-  struct Node {
+  /// With the weight w = 2 pi R. In order 2 the axis node, whose D vanishes, never carries a multiplier.
+  struct Node : SlaveNode {
     bool on_axis = false;
-    bool carries = false; ///< has a multiplier; never the axis node in order 2, whose weight D vanishes
-    double D = 0;         ///< constant diagonal of the mortar matrix, int psi_a 2 pi R dS [mm^2]
-    double extent = 0;    ///< int |N_a| 2 pi R dS > 0: row scale of a node without multiplier [mm^2]
-    double c_N = 0;       ///< softer modulus over the mean length of the node's facets [MPa/mm]
-    int tied = -1;        ///< node of the crease to which this one's multiplier is extended, -1: none
-    double tied_D = 0;    ///< int psi_a N_tied 2 pi R dS [mm^2]
-
-    double weight() const { return D + tied_D; } ///< int psi_a 2 pi R dS [mm^2]
   };
   using Measures = std::variant<std::vector<FacetMeasure<2>>, std::vector<FacetMeasure<3>>>;
 

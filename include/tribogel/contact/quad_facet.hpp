@@ -128,6 +128,15 @@ template <int order> struct QuadFrame {
   }
 };
 
+/// How far along n from x the plane through c with the normal m is [mm]; 0 if n hardly meets it.
+inline double way_to_plane(const Vector3<double> &x, const Vector3<double> &n, const Vector3<double> &c,
+                           const Vector3<double> &m)
+{
+  constexpr double least_slope = 0.1; // the line is 6 degrees off the plane
+  const double slope = n.dot(m) / m.norm();
+  return std::abs(slope) > least_slope ? (c - x).dot(m) / m.norm() / slope : 0;
+}
+
 template <int order> QuadMeasure<order> quad_measure(const QuadPoints<order> &X)
 {
   constexpr int nodes = tensor_nodes<2, order>, points = 2 * order + 1; // exact for N_a N_b w
@@ -169,7 +178,8 @@ struct QuadReference {
   std::vector<std::array<int, 9>> facets; ///< node numbers; order 1 uses the first four
 };
 
-/// Which facets meet at a node, and which of their sides are the surface's edge.
+/// Which facets meet at a node, and which of their sides are the surface's edge. Facets may be left out: they are no
+/// node's neighbours and meet nothing.
 struct QuadSurface {
   struct FacetNode {
     int facet, local; ///< the node is number `local` of `facet`
@@ -179,24 +189,39 @@ struct QuadSurface {
   std::vector<std::vector<FacetNode>> neighbours; ///< of each node
   /// Sides xi = -1, xi = 1, eta = -1, eta = 1 of each facet that no other facet shares.
   std::vector<std::array<bool, 4>> on_edge;
+  std::vector<bool> left_out; ///< of each facet; empty: none
 
   QuadSurface() = default;
-  QuadSurface(std::vector<std::array<int, 9>> all_facets, int facet_order, int node_count)
+  QuadSurface(std::vector<std::array<int, 9>> all_facets, int facet_order, int node_count,
+              std::vector<bool> facets_left_out = {})
       : facets(std::move(all_facets)), order(facet_order), neighbours(static_cast<std::size_t>(node_count)),
-        on_edge(facets.size())
+        on_edge(facets.size()), left_out(std::move(facets_left_out))
   {
     std::map<std::array<int, 2>, int> uses;
     for (int f = 0; f < facet_count(); ++f) {
-      for (int a = 0; a < facet_nodes(); ++a) neighbours[facets[f][a]].push_back({f, a});
       for (int side = 0; side < 4; ++side) ++uses[ends(f, side)];
+      if (!takes_part(f)) continue;
+      for (int a = 0; a < facet_nodes(); ++a) neighbours[facets[f][a]].push_back({f, a});
     }
     for (int f = 0; f < facet_count(); ++f)
       for (int side = 0; side < 4; ++side) on_edge[f][side] = uses[ends(f, side)] == 1;
   }
 
+  bool takes_part(int f) const { return left_out.empty() || !left_out[static_cast<std::size_t>(f)]; }
+
   int facet_count() const { return static_cast<int>(facets.size()); }
   int node_count() const { return static_cast<int>(neighbours.size()); }
   int facet_nodes() const { return (order + 1) * (order + 1); }
+
+  /// Local numbers of the nodes on side `side` of a facet (as in on_edge), for depth > 0 of the row of nodes so many
+  /// steps away from it.
+  std::vector<int> nodes_along(int side, int depth = 0) const
+  {
+    const int across = side % 2 == 0 ? depth : order - depth;
+    std::vector<int> local;
+    for (int k = 0; k <= order; ++k) local.push_back(side < 2 ? across + k * (order + 1) : across * (order + 1) + k);
+    return local;
+  }
 
   /// The values of a nodal field on one facet.
   template <int facet_order, class Field> auto on_facet(int f, const Field &field) const
@@ -206,13 +231,11 @@ struct QuadSurface {
     return values;
   }
 
-private:
+  /// The side's corners, which name it.
   std::array<int, 2> ends(int f, int side) const
   {
-    const int last = order, stride = order + 1;
-    const int corner[4][2] = {
-        {0, last * stride}, {last, last + last * stride}, {0, last}, {last * stride, last + last * stride}};
-    const int a = facets[f][corner[side][0]], b = facets[f][corner[side][1]];
+    const std::vector<int> along = nodes_along(side);
+    const int a = facets[f][along.front()], b = facets[f][along.back()];
     return {std::min(a, b), std::max(a, b)};
   }
 };

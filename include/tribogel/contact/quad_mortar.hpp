@@ -32,7 +32,7 @@ template <int order> inline constexpr int outline_chords = order;
 inline constexpr double outline_margin = 1.1;
 
 /// And at most so many times, however the facet is distorted.
-inline constexpr double widest_outline = 4;
+inline constexpr double widest_outline = 6;
 
 /// Gauss points on a triangle as barycentric weights (product rule on the collapsed square); weights add up to 1. Exact
 /// to degree 2 n - 2.
@@ -52,6 +52,23 @@ template <int n> TriangleRule<n> triangle_rule()
       rule.weight[i * n + j] = 0.5 * line.weight[i] * line.weight[j] * (1 - p);
     }
   return rule;
+}
+
+/// How wide the slave facet's outline must be for a pair: so wide that the facet is inside, and what its normals meet
+/// on the master. In steps, since between them the cut depends on the facet through the frame only. All pairs of a
+/// slave facet must be given the same: facets that share a side must be cut at the same point of it.
+template <int order> double outline_width(const QuadMeasure<order> &measure, const QuadPair<order> &pair)
+{
+  const QuadFrame<order> frame(pair.x), master(pair.y);
+  const Vector3<double> m = master.A.col(0).cross(master.A.col(1));
+  double wider = 1;
+  for (std::size_t a = 0; a < pair.x.size(); ++a) {
+    const Vector3<double> met = pair.x[a] + way_to_plane(pair.x[a], pair.n[a], master.centre, m) * pair.n[a];
+    for (const auto &side : measure.outline)
+      for (const Vector3<double> &x : {pair.x[a], met})
+        while (side.normal.dot(frame(x)) > wider * side.distance && wider < widest_outline) wider *= outline_margin;
+  }
+  return wider * outline_margin;
 }
 
 namespace quad_mortar
@@ -163,20 +180,9 @@ private:
       }
   }
 
-  /// So large that the facet is inside. In steps, since between them the cut depends on the facet through the frame
-  /// only.
-  double margin_around(const QuadFrame<order> &frame) const
-  {
-    double wider = 1;
-    for (const auto &side : measure.outline)
-      for (const auto &x : pair.x)
-        while (side.normal.dot(frame(x)) > wider * side.distance && wider < widest_outline) wider *= outline_margin;
-    return wider * outline_margin;
-  }
-
   void cut_to_neighbourhood(const QuadFrame<order> &frame)
   {
-    const double margin = margin_around(frame);
+    const double margin = pair.neighbourhood;
     for (const auto &side : measure.outline)
       cut(
           places, [&](const Place &p) { return margin * side.distance - side.normal.dot(frame(p.at)); },

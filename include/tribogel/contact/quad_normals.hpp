@@ -7,7 +7,8 @@
 namespace tribogel
 {
 
-/// A nodal normal; if asked for, its derivatives with respect to the positions of the nodes of its facets.
+/// A nodal normal, zero where the node has no facet; if asked for, its derivatives with respect to the positions of the
+/// nodes of its facets.
 struct QuadNormal {
   Vector3<double> n = Vector3<double>::Zero();
   std::vector<std::pair<int, Matrix3<double>>> d; ///< (node, dn/dx) [1/mm]
@@ -55,6 +56,7 @@ inline QuadNormal quad_normal(const QuadSurface &surface, int a, const std::vect
                               bool with_derivative)
 {
   QuadNormal normal;
+  if (surface.neighbours[a].empty()) return normal;
   for (const auto &at : surface.neighbours[a])
     if (surface.order == 1)
       quad_normals::add_facet<1>(surface, at, x, with_derivative, normal);

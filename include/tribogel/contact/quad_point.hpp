@@ -20,6 +20,7 @@ inline constexpr double edge_extension = 1;
 template <int order> struct QuadPair {
   QuadPoints<order> x, n, y;     ///< slave positions and normals, master positions
   std::array<bool, 4> on_edge{}; ///< sides of the master facet that are extended
+  double neighbourhood = 0;      ///< the master's outline is cut to the slave's, so many times as wide
 };
 
 template <int order> struct QuadPairMortar {

@@ -16,11 +16,17 @@ enum class MortarStatus {
 };
 
 struct MortarReport {
-  MortarStatus status = MortarStatus::ok;
-  int facet = -1; ///< slave facet of the first failure
+  MortarStatus status = MortarStatus::ok; ///< of the first slave facet that failed
+  std::vector<int> failed;                ///< slave facets, ascending
   /// Reference length or area of slave beyond the master's edge [mm or mm^2], each facet counted once over all ranges
   /// of nodes.
   double overhang = 0;
+
+  void add_failure(MortarStatus why, int facet)
+  {
+    if (failed.empty()) status = why;
+    failed.push_back(facet);
+  }
 };
 
 /// Where a node of a surface is, about the axis of its body's plate and in the frame that turns with it: (r [mm], theta

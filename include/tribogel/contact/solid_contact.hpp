@@ -4,7 +4,8 @@
 ///
 ///     x = X + u + travel e_z,    y = R (X + u) - Q_s^T c,    R = Q_s^T Q_m,    Q the plates' rotations, c the axis
 ///
-/// With D = D_a and M_m = M_am, constant lambda in this frame where nothing changes:
+/// With D = D_a and M_m = M_am, constant lambda in this frame where nothing changes (next to a crease x, du/dt and D
+/// are those of two nodes, THEORY, section 3.6):
 ///
 ///     gap = n . (sum_m M_m y_m / D - x)
 ///     v   = (Omega_s - Omega_m) e_z x x - Omega_m e_z x Q_s^T c + du/dt + travel rate - sum_m M_m R du_m/dt / D
@@ -18,9 +19,11 @@
 #pragma once
 
 #include "tribogel/contact/condition_slope.hpp"
+#include "tribogel/contact/quad_area.hpp"
 #include "tribogel/contact/quad_elements.hpp"
 #include "tribogel/contact/quad_mortar.hpp"
 #include "tribogel/contact/quad_normals.hpp"
+#include "tribogel/contact/quad_rolling.hpp"
 #include "tribogel/contact/quad_search.hpp"
 #include "tribogel/contact/solid_geometry.hpp"
 #include "tribogel/contact/state.hpp"
@@ -51,6 +54,13 @@ public:
     return tribogel::candidate_pairs(geometry.slave_surface, at.x, n, geometry.master_surface, at.y, margin);
   }
 
+  /// Facets of a wall that may touch (quad_rolling.hpp); `on_crease` marks the slave's nodes there.
+  std::vector<bool> rolling_facets(const ContactState<double> &state, const std::vector<bool> &on_crease) const
+  {
+    const Placed at = place(state);
+    return tribogel::rolling_facets(geometry.slave_surface, at.x, on_crease, geometry.master_surface, at.y);
+  }
+
   /// Evaluate the mortar integrals that the slave nodes first <= a < last need (all by default).
   MortarReport update(const ContactState<double> &state, const Pairs &pairs, bool derivatives, int first = 0,
                       int last = -1);
@@ -71,8 +81,8 @@ public:
   std::pair<double, double> resultant(int a) const
   {
     if (!geometry.nodes[a].carries) return {0, 0};
-    const Vector3<double> force = geometry.nodes[a].D * now.multiplier[a];
-    return {force[2], placed.x[a].cross(force)[2]};
+    const Vector3<double> force = geometry.nodes[a].weight() * now.multiplier[a];
+    return {force[2], mean(a, placed.x).cross(force)[2]};
   }
 
   SurfacePlace slave_place(int a) const
@@ -89,7 +99,7 @@ public:
   }
 
   // What both models' operators tell of the slave: a node's constants, the surface's size and that of a facet.
-  const SolidGeometry::Node &constants(int a) const { return geometry.nodes[a]; }
+  const SlaveNode &constants(int a) const { return geometry.nodes[a]; }
   double slave_size() const { return geometry.slave_area; } ///< [mm^2]
   double facet_size() const
   {
@@ -113,6 +123,8 @@ private:
     double gap = 0;        ///< [mm]
     Vector3<double> arm;   ///< from x to the projected point [mm]
     Vector3<double> velocity;
+    QuadArea area; ///< only if the law needs it
+    double area_ratio = 1;
   };
 
   SolidGeometry geometry;
@@ -158,6 +170,7 @@ private:
   /// Whether slave facet f belongs to a node of this range.
   bool is_wanted(int f, int first, int last) const
   {
+    if (!geometry.slave_surface.takes_part(f)) return false;
     for (int b = 0; b < geometry.slave_surface.facet_nodes(); ++b) {
       const int a = geometry.slave_surface.facets[f][b];
       if (a >= first && a < last) return true;
@@ -168,17 +181,28 @@ private:
   template <int order>
   void integrate(int f, std::span<const std::pair<int, int>> pairs, bool derivatives, MortarReport &report,
                  double &overhang);
-  NodeContact contact_of(int a) const;
+  NodeContact contact_of(int a, bool with_area, bool derivatives) const;
   ContactPoint<double> point_of(int a, const NodeContact &contact) const
   {
-    return {now.multiplier[a], normal[a].n, contact.gap, contact.velocity, 1};
+    return {now.multiplier[a], normal[a].n, contact.gap, contact.velocity, contact.area_ratio};
+  }
+  /// What node a's multiplier acts on: the node itself, and the crease node tied to it.
+  std::vector<std::pair<int, double>> shares(int a) const
+  {
+    const SlaveNode &node = geometry.nodes[a];
+    if (node.tied < 0) return {{a, node.D}};
+    return {{a, node.D}, {node.tied, node.tied_D}};
+  }
+  Vector3<double> mean(int a, const std::vector<Vector3<double>> &field) const
+  {
+    Vector3<double> sum = Vector3<double>::Zero();
+    for (const auto &[b, D] : shares(a)) sum += D / geometry.nodes[a].weight() * field[b];
+    return sum;
   }
   ContactScale scale_of(int a) const { return {geometry.nodes[a].c_N, geometry.nodes[a].c_N / now.stick_rate}; }
-  double current_area(int a) const;
-  template <class Emit>
-  void emit_node(int a, const NodeContact &contact, const Eigen::Matrix<double, 3, 10> &slope, const Emit &emit) const;
-  template <class Emit>
-  void emit_facet(int f, const std::vector<Eigen::Matrix<double, 3, 10>> &slope, const Emit &emit) const;
+  using Slope = Eigen::Matrix<double, 3, 11>; ///< of the condition, as condition_slope gives it
+  template <class Emit> void emit_node(int a, const NodeContact &contact, const Slope &slope, const Emit &emit) const;
+  template <class Emit> void emit_facet(int f, const std::vector<Slope> &slope, const Emit &emit) const;
   struct FacetUnknowns;
   FacetUnknowns unknowns_of(int f, int first, int last, const std::vector<int> &master_facets) const;
 };
@@ -230,26 +254,35 @@ void SolidContact::integrate(int f, std::span<const std::pair<int, int>> pairs, 
     facets[f].push_back({master, part.M, std::move(part.dM)});
   };
   std::vector<QuadPair<order>> all;
+  double width = 0;
   for (const auto &[slave, master] : pairs) {
     pair.y = geometry.master_surface.on_facet<order>(master, placed.y);
     pair.on_edge = geometry.master_surface.on_edge[master];
-    if (geometry.exact_cells)
-      keep(master, quad_pair_mortar<order>(measure, pair, derivatives));
-    else
-      all.push_back(pair);
+    all.push_back(pair);
+    width = std::max(width, outline_width<order>(measure, pair));
   }
-  if (!geometry.exact_cells) {
+  if (geometry.exact_cells) {
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      all[k].neighbourhood = width;
+      keep(pairs[k].second, quad_pair_mortar<order>(measure, all[k], derivatives));
+    }
+  } else {
     auto parts = quad_element_mortar<order>(measure, all, derivatives);
     for (std::size_t k = 0; k < pairs.size(); ++k) keep(pairs[k].second, std::move(parts[k]));
   }
   if (status == MortarStatus::ok && !(std::abs(covered - 4) <= 4 * coverage_tolerance))
     status = MortarStatus::uncovered;
-  if (status != MortarStatus::ok && report.status == MortarStatus::ok) report.status = status, report.facet = f;
+  if (status != MortarStatus::ok) report.add_failure(status, f);
 }
 
-inline SolidContact::NodeContact SolidContact::contact_of(int a) const
+inline SolidContact::NodeContact SolidContact::contact_of(int a, bool with_area, bool derivatives) const
 {
+  const SlaveNode &own = geometry.nodes[a];
   NodeContact contact;
+  if (with_area) {
+    contact.area = nodal_area(geometry.slave_surface, a, own.tied, placed.x, derivatives);
+    contact.area_ratio = contact.area.value / own.weight();
+  }
   for (const auto &[f, local] : geometry.slave_surface.neighbours[a])
     for (const PairPart &part : facets[f])
       for (int b = 0; b < geometry.master_surface.facet_nodes(); ++b) {
@@ -259,10 +292,10 @@ inline SolidContact::NodeContact SolidContact::contact_of(int a) const
         if (known == contact.masters.end()) contact.masters.push_back(m), contact.M.push_back(0);
         contact.M[k] += part.M(local, b);
       }
-  const double D = geometry.nodes[a].D, spin = now.slave.rotation_rate - now.master.rotation_rate;
-  const Vector3<double> &x = placed.x[a];
+  const double D = own.weight(), spin = now.slave.rotation_rate - now.master.rotation_rate;
+  const Vector3<double> x = mean(a, placed.x);
   contact.arm = -x;
-  contact.velocity = now.slave.rate[a];
+  contact.velocity = mean(a, now.slave.rate);
   contact.velocity += Vector3<double>(-spin * x[1], spin * x[0], now.slave.travel_rate - now.master.travel_rate);
   contact.velocity += now.master.rotation_rate * Vector3<double>(-placed.shift[1], placed.shift[0], 0);
   Vector3<double> master_rate = Vector3<double>::Zero();
@@ -288,35 +321,19 @@ template <FrictionLaw<double> Law> void SolidContact::node(int a, const Law &law
     block.residual.tail<3>() = constants.extent * lambda;
     return;
   }
-  const NodeContact contact = contact_of(a);
+  const NodeContact contact = contact_of(a, !law.linear_in_pressure(), false);
   const auto condition = contact_condition<double>(point_of(a, contact), scale_of(a), law);
   const Vector3<double> on_master = placed.R.transpose() * lambda;
-  const auto masters = static_cast<Eigen::Index>(contact.masters.size());
+  const auto on = shares(a);
+  const auto slaves = static_cast<Eigen::Index>(on.size()), masters = static_cast<Eigen::Index>(contact.masters.size());
+  if (slaves == 2) block.slave_nodes.push_back(on[1].first);
+  block.slave_rows = static_cast<int>(slaves);
   block.master_nodes = contact.masters;
   block.status = condition.status;
-  block.residual.resize(3 * masters + 6);
-  block.residual.head<3>() = -constants.D * lambda;
-  for (Eigen::Index k = 0; k < masters; ++k) block.residual.segment<3>(3 + 3 * k) = contact.M[k] * on_master;
-  block.residual.tail<3>() = constants.D * condition.residual;
-}
-
-/// int N_a over the current surface [mm^2].
-inline double SolidContact::current_area(int a) const
-{
-  double area = 0;
-  const auto add = [&]<int order>(const QuadSurface::FacetNode &at) {
-    static const auto rule = gauss_rule<order + 1>();
-    const QuadPoints<order> x = geometry.slave_surface.on_facet<order>(at.facet, placed.x);
-    for (int q = 0; q < tensor_nodes<2, order>; ++q) {
-      const int i = q % (order + 1), j = q / (order + 1);
-      const auto shape = tensor_shape<2, order>({rule.point[i], rule.point[j]});
-      const double dA = tangent(shape.dN, x, 0).cross(tangent(shape.dN, x, 1)).norm();
-      area += rule.weight[i] * rule.weight[j] * dA * shape.N[at.local];
-    }
-  };
-  for (const auto &at : geometry.slave_surface.neighbours[a])
-    geometry.slave_surface.order == 1 ? add.operator()<1>(at) : add.operator()<2>(at);
-  return area;
+  block.residual.resize(3 * (slaves + masters + 1));
+  for (Eigen::Index k = 0; k < slaves; ++k) block.residual.segment<3>(3 * k) = -on[k].second * lambda;
+  for (Eigen::Index k = 0; k < masters; ++k) block.residual.segment<3>(3 * (slaves + k)) = contact.M[k] * on_master;
+  block.residual.tail<3>() = constants.weight() * condition.residual;
 }
 
 template <FrictionLaw<double> Law> NodeResult SolidContact::result(int a, const Law &law) const
@@ -324,14 +341,15 @@ template <FrictionLaw<double> Law> NodeResult SolidContact::result(int a, const 
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto &constants = geometry.nodes[a];
   const Vector3<double> none = Vector3<double>::Constant(nan);
-  if (!constants.carries) return {false, ContactStatus::open, constants.D, nan, nan, nan, none, none, none, none};
-  const NodeContact contact = contact_of(a);
+  if (!constants.carries)
+    return {false, ContactStatus::open, constants.weight(), nan, nan, nan, none, none, none, none};
+  const NodeContact contact = contact_of(a, true, false);
   const Vector3<double> &lambda = now.multiplier[a], &n = normal[a].n;
-  const double area = current_area(a);
-  const Vector3<double> cauchy = constants.D / area * lambda;
+  const double area = contact.area.value;
+  const Vector3<double> cauchy = constants.weight() / area * lambda;
   const auto condition = contact_condition<double>(point_of(a, contact), scale_of(a), law);
   const Matrix3<double> own = turned(-std::atan2(placed.x[a][1], placed.x[a][0])); // to (r, theta, z)
-  return {true,         condition.status, constants.D,
+  return {true,         condition.status, constants.weight(),
           area,         contact.gap,      -cauchy.dot(n),
           own * lambda, own * cauchy,     own * (contact.velocity - contact.velocity.dot(n) * n),
           own * n};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "tribogel/contact/quad_facet.hpp"
+#include "tribogel/contact/slave_node.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,30 +18,26 @@ struct SolidParameters {
   double softer_modulus = 1;                 ///< shear modulus of the softer body, for the scale c_N [MPa]
   std::vector<bool> carries_multiplier = {}; ///< of each slave node, false where u is prescribed; empty: all true
   bool exact_cells = true;                   ///< false: mortar integrals at the slave facets' own Gauss points
+  std::vector<bool> left_out = {};           ///< of each slave facet: it cannot touch; empty: all can
+  /// Slave nodes at an edge that belong to another slave surface: they have no multiplier here, and their neighbours'
+  /// basis functions are extended to them. Empty: none.
+  std::vector<bool> on_crease = {};
 };
 
 struct SolidGeometry {
-  struct Node {
-    bool carries = false; ///< has a multiplier
-    double D = 0;         ///< constant diagonal of the mortar matrix, int psi_a dS [mm^2]
-    double extent = 0;    ///< int |N_a| dS: row scale of a node without multiplier [mm^2]
-    double c_N = 0;       ///< softer modulus over the mean size of the node's facets [MPa/mm]
-
-    double weight() const { return D; }
-  };
   using Measures = std::variant<std::vector<QuadMeasure<1>>, std::vector<QuadMeasure<2>>>;
 
   QuadReference slave, master;
   QuadSurface slave_surface, master_surface;
-  Measures measures; ///< of the slave facets
-  std::vector<Node> nodes;
-  double slave_area = 0;   ///< [mm^2]
-  bool exact_cells = true; ///< as in SolidParameters
+  Measures measures;            ///< of the slave facets
+  std::vector<SlaveNode> nodes; ///< with w = 1
+  double slave_area = 0;        ///< [mm^2]
+  bool exact_cells = true;      ///< as in SolidParameters
 
   SolidGeometry() = default;
   SolidGeometry(QuadReference slave_face, QuadReference master_face, const SolidParameters &parameters)
       : slave(std::move(slave_face)), master(std::move(master_face)),
-        slave_surface(slave.facets, parameters.order, static_cast<int>(slave.X.size())),
+        slave_surface(slave.facets, parameters.order, static_cast<int>(slave.X.size()), parameters.left_out),
         master_surface(master.facets, parameters.order, static_cast<int>(master.X.size())), nodes(slave.X.size()),
         exact_cells(parameters.exact_cells)
   {
@@ -51,23 +48,49 @@ struct SolidGeometry {
   }
 
 private:
+  /// The shares of the crease's nodes go to the next row of nodes (THEORY, section 3.6).
+  template <int order> void extend_to_crease(int f, const std::vector<bool> &on_crease, QuadMeasure<order> &facet)
+  {
+    const auto &node = slave.facets[f];
+    for (int side = 0; side < 4; ++side) {
+      const std::vector<int> edge = slave_surface.nodes_along(side), next = slave_surface.nodes_along(side, 1);
+      if (!std::all_of(edge.begin(), edge.end(), [&](int b) { return on_crease[node[b]]; })) continue;
+      for (std::size_t k = 0; k < edge.size(); ++k) {
+        SlaveNode &neighbour = nodes[node[next[k]]];
+        if (neighbour.tied >= 0 && neighbour.tied != node[edge[k]]) continue; // at a corner of the crease
+        facet.basis.A.row(next[k]) += facet.basis.A.row(edge[k]);
+        facet.basis.A.row(edge[k]).setZero();
+        neighbour.tied = node[edge[k]];
+        neighbour.tied_D += facet.basis.D[edge[k]];
+        facet.basis.D[edge[k]] = 0;
+      }
+      return;
+    }
+  }
+
   template <int order> void measure_facets(const SolidParameters &parameters)
   {
     std::vector<QuadMeasure<order>> all;
-    std::vector<double> size(nodes.size());
+    std::vector<double> size(nodes.size()), facets(nodes.size()); // mean over the node's facets
     for (int f = 0; f < slave_surface.facet_count(); ++f) {
-      all.push_back(quad_measure<order>(slave_surface.on_facet<order>(f, slave.X)));
+      auto facet = quad_measure<order>(slave_surface.on_facet<order>(f, slave.X));
+      const bool touches = slave_surface.takes_part(f);
+      if (touches && !parameters.on_crease.empty()) extend_to_crease<order>(f, parameters.on_crease, facet);
       for (int b = 0; b < slave_surface.facet_nodes(); ++b) {
         const int a = slave.facets[f][b];
-        nodes[a].D += all.back().basis.D[b];
-        nodes[a].extent += all.back().extent[b];
-        size[a] += std::sqrt(all.back().area) / static_cast<double>(slave_surface.neighbours[a].size());
+        if (touches) nodes[a].D += facet.basis.D[b];
+        nodes[a].extent += facet.extent[b];
+        size[a] += std::sqrt(facet.area);
+        facets[a] += 1;
       }
-      slave_area += all.back().area;
+      slave_area += facet.area;
+      all.push_back(std::move(facet));
     }
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       nodes[a].carries = parameters.carries_multiplier.empty() || parameters.carries_multiplier[a];
-      nodes[a].c_N = parameters.softer_modulus / size[a];
+      if (!parameters.on_crease.empty() && parameters.on_crease[a]) nodes[a].carries = false;
+      if (slave_surface.neighbours[a].empty()) nodes[a].carries = false;
+      nodes[a].c_N = parameters.softer_modulus * facets[a] / size[a];
     }
     measures = std::move(all);
   }

@@ -8,7 +8,7 @@ namespace tribogel
 
 template <class Law, class Emit> void SolidContact::jacobian(const Law &law, const Emit &emit) const
 {
-  std::vector<Eigen::Matrix<double, 3, 10>> slope(normal.size());
+  std::vector<Slope> slope(normal.size());
   for (int a = first_node; a < last_node; ++a) {
     if (!geometry.nodes[a].carries) {
       emit(ContactBlock{{{ContactUnknown::multiplier, a}},
@@ -16,8 +16,8 @@ template <class Law, class Emit> void SolidContact::jacobian(const Law &law, con
                         geometry.nodes[a].extent * Matrix3<double>::Identity()});
       continue;
     }
-    const NodeContact contact = contact_of(a);
-    slope[a] = geometry.nodes[a].D * condition_slope<10>(point_of(a, contact), scale_of(a), law);
+    const NodeContact contact = contact_of(a, !law.linear_in_pressure(), true);
+    slope[a] = geometry.nodes[a].weight() * condition_slope<11>(point_of(a, contact), scale_of(a), law);
     emit_node(a, contact, slope[a], emit);
   }
   for (std::size_t f = 0; f < facets.size(); ++f)
@@ -26,14 +26,15 @@ template <class Law, class Emit> void SolidContact::jacobian(const Law &law, con
 
 /// What depends on the node's own unknowns, normal and multiplier, and on the masters with the mortar integrals fixed.
 template <class Emit>
-void SolidContact::emit_node(int a, const NodeContact &contact, const Eigen::Matrix<double, 3, 10> &slope,
-                             const Emit &emit) const
+void SolidContact::emit_node(int a, const NodeContact &contact, const Slope &slope, const Emit &emit) const
 {
   using Kind = ContactUnknown;
-  const double D = geometry.nodes[a].D, spin = now.slave.rotation_rate - now.master.rotation_rate;
+  const double weight = geometry.nodes[a].weight(), spin = now.slave.rotation_rate - now.master.rotation_rate;
   const Vector3<double> by_gap = slope.col(3);
-  const Matrix3<double> by_velocity = slope.middleCols<3>(4), by_normal = slope.rightCols<3>();
-  emit(ContactBlock{{{Kind::slave, a}}, {{Kind::multiplier, a}}, -D * Matrix3<double>::Identity()});
+  const Matrix3<double> by_velocity = slope.middleCols<3>(4), by_normal = slope.middleCols<3>(7);
+  const auto on = shares(a);
+  for (const auto &[b, D] : on)
+    emit(ContactBlock{{{Kind::slave, b}}, {{Kind::multiplier, a}}, -D * Matrix3<double>::Identity()});
 
   const auto masters = static_cast<Eigen::Index>(contact.masters.size());
   ContactBlock forces, conditions;
@@ -46,7 +47,9 @@ void SolidContact::emit_node(int a, const NodeContact &contact, const Eigen::Mat
   }
   emit(forces);
 
-  conditions.columns = {{Kind::multiplier, a}, {Kind::slave, a}};
+  conditions.columns = {{Kind::multiplier, a}};
+  for (const auto &[b, D] : on) conditions.columns.push_back({Kind::slave, b});
+  for (const auto &[b, d] : contact.area.d) conditions.columns.push_back({Kind::slave, b});
   for (const auto &[b, d] : normal[a].d) conditions.columns.push_back({Kind::slave, b});
   for (int m : contact.masters) conditions.columns.push_back({Kind::master, m});
   conditions.values.resize(3, 3 * static_cast<Eigen::Index>(conditions.columns.size()));
@@ -54,14 +57,22 @@ void SolidContact::emit_node(int a, const NodeContact &contact, const Eigen::Mat
   own(0, 1) -= spin;
   own(1, 0) += spin;
   conditions.values.leftCols<3>() = slope.leftCols<3>();
-  conditions.values.middleCols<3>(3) = by_velocity * own - by_gap * normal[a].n.transpose();
-  Eigen::Index column = 6;
+  Eigen::Index column = 3;
+  for (const auto &[b, D] : on) {
+    conditions.values.middleCols<3>(column) = D / weight * (by_velocity * own - by_gap * normal[a].n.transpose());
+    column += 3;
+  }
+  for (const auto &[b, d] : contact.area.d) {
+    conditions.values.middleCols<3>(column) = slope.col(10) * d.transpose() / weight;
+    column += 3;
+  }
   const Matrix3<double> through_normal = by_normal + by_gap * contact.arm.transpose();
   for (const auto &[b, d] : normal[a].d) {
     conditions.values.middleCols<3>(column) = through_normal * d;
     column += 3;
   }
-  const Matrix3<double> through_master = (by_gap * normal[a].n.transpose() - now.shift * by_velocity) * placed.R / D;
+  const Matrix3<double> through_master =
+      (by_gap * normal[a].n.transpose() - now.shift * by_velocity) * placed.R / weight;
   for (Eigen::Index k = 0; k < masters; ++k)
     conditions.values.middleCols<3>(column + 3 * k) = contact.M[k] * through_master;
   emit(conditions);
@@ -121,8 +132,7 @@ inline SolidContact::FacetUnknowns SolidContact::unknowns_of(int f, int first, i
 /// What depends on the mortar integrals of slave facet f. With the derivative of M of each pair contracted with lambda
 /// (forces on the masters) and with the slopes of the conditions, all pairs' dependence on the slave's positions and
 /// normals is one block; that on the master's is one a pair.
-template <class Emit>
-void SolidContact::emit_facet(int f, const std::vector<Eigen::Matrix<double, 3, 10>> &slope, const Emit &emit) const
+template <class Emit> void SolidContact::emit_facet(int f, const std::vector<Slope> &slope, const Emit &emit) const
 {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const QuadSurface &surface = geometry.slave_surface;
@@ -148,7 +158,7 @@ void SolidContact::emit_facet(int f, const std::vector<Eigen::Matrix<double, 3, 
         combine.block<3, 1>(3 * m, entry) = placed.R.transpose() * now.multiplier[a];
         combine.block<3, 1>(3 * (nodes + i), entry) =
             (normal[a].n.dot(placed.y[master.node]) * slope[a].col(3) - slope[a].middleCols<3>(4) * rate) /
-            geometry.nodes[a].D;
+            geometry.nodes[a].weight();
       }
     }
     block.rows.insert(block.rows.end(), is.multipliers.begin(), is.multipliers.end());
@@ -180,7 +190,8 @@ template <class Emit> void SolidContact::pattern(const Pairs &pairs, int first, 
   using Kind = ContactUnknown;
   for (int a = first; a < last; ++a) {
     emit(ContactBlock{{{Kind::multiplier, a}}, {{Kind::multiplier, a}}, {}});
-    if (geometry.nodes[a].carries) emit(ContactBlock{{{Kind::slave, a}}, {{Kind::multiplier, a}}, {}});
+    if (!geometry.nodes[a].carries) continue;
+    for (const auto &[b, D] : shares(a)) emit(ContactBlock{{{Kind::slave, b}}, {{Kind::multiplier, a}}, {}});
   }
   for (auto pair = pairs.begin(); pair != pairs.end();) {
     const int f = pair->first;

@@ -1,0 +1,53 @@
+"""What tools/speed-against-error reads of runs, and how it compares them."""
+import csv
+import json
+import math
+
+import numpy
+
+FORCE, TORQUE = "normal_force_N", "torque_Nmm"
+
+
+def ends_of(directory):
+    return json.loads((directory / "summary.json").read_text(encoding="utf-8"))["phases"]
+
+
+def course_of(directory):
+    """Of each phase: times, and columns N and T."""
+    phases = {}
+    with open(directory / "history.csv", encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            phases.setdefault(row["phase"], []).append([float(row[name]) for name in ("time_s", FORCE, TORQUE)])
+    return {phase: numpy.array(rows).T for phase, rows in phases.items()}
+
+
+def largest_difference(course, reference, name):
+    """Of a run's values from the reference's at the same times, over the largest value of the reference. Before a phase's first
+    accepted step the reference is what it was at the end of the phase before, where T may jump: those times are left out."""
+    k = 1 if name == FORCE else 2
+    scale = max(abs(rows[k]).max() for rows in reference.values())
+    worst = 0.0
+    for phase, rows in course.items():
+        exact = reference[phase]
+        inside = rows[0] >= exact[0][0]
+        worst = max(worst, abs(rows[k][inside] - numpy.interp(rows[0][inside], exact[0], exact[k])).max(initial=0.0))
+    return worst / scale
+
+
+def error_of(row):
+    """The larger of the errors of N and T at the ends; for a picture and for the front."""
+    values = [float(row[f"error_{letter}_ends_per_cent"]) for letter in "NT" if row[f"error_{letter}_ends_per_cent"]]
+    return max(values) if values else math.nan
+
+
+def front(rows):
+    """Rows that no other beats in both cost and error, by model, cheapest first."""
+    best = []
+    for model in dict.fromkeys(row["model"] for row in rows):
+        least = math.inf
+        for row in sorted((r for r in rows if r["model"] == model and not r["failure"]), key=lambda r: float(r["cpu_s"])):
+            error = error_of(row)
+            if error < least:
+                least = error
+                best.append(row)
+    return best
