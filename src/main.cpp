@@ -38,7 +38,7 @@ std::string version_text()
 /// Whatever the outcome of a run and what is known of it so far, into summary.json.
 using SummaryWriter = std::function<PetscErrorCode(const ErrorEstimate *estimate)>;
 
-/// -error_estimate. The run has been recorded, so that nothing is lost when companions are killed.
+/// What -error_estimate asks for. The run has been recorded, so that nothing is lost when companions are killed.
 PetscErrorCode ReportErrors(MPI_Comm comm, const SceneInput &input, const SerialMesh &from_file, double start,
                             const Recorder &recorder, bool completed, const Progress &progress,
                             const SummaryWriter &write)
@@ -46,6 +46,7 @@ PetscErrorCode ReportErrors(MPI_Comm comm, const SceneInput &input, const Serial
   ErrorEstimate estimate;
   const Scene &scene = input.scene;
   PetscFunctionBeginUser;
+  if (!scene.output.error_estimate) PetscFunctionReturn(0);
   if (completed)
     PetscCall(EstimateErrors(
         comm, scene, input.mesh_file.empty() ? nullptr : &from_file, recorder,
@@ -106,10 +107,9 @@ PetscErrorCode Run(const CommandLine &line, int &status)
   recorder.on_first_failure = [&progress](const StepFailure &failure) { progress.show(failure); };
   recorder.on_notice = [&progress](const std::string &text) { progress.show("note: " + text); };
   PetscCall(problem.Run({&recorder, &checkpoint}, completed, outcome.reason));
-  const bool stopped = !completed && !problem.stop_request.empty();
-  status = outcome.status = completed ? exit_status::completed
-                            : stopped ? exit_status::stopped_on_request
-                                      : exit_status::cannot_go_on;
+  status = outcome.status = completed                       ? exit_status::completed
+                            : !problem.stop_request.empty() ? exit_status::stopped_on_request
+                                                            : exit_status::cannot_go_on;
   if (status == exit_status::cannot_go_on) PetscCall(checkpoint.Write(problem));
   PetscCall(checkpoint.Cost(comm, cost));
   const auto write = [&](const ErrorEstimate *estimate) {
@@ -118,8 +118,7 @@ PetscErrorCode Run(const CommandLine &line, int &status)
   };
   PetscCall(write(nullptr));
   progress.finish(recorder, problem.counts, outcome, cost, directory);
-  if (input.scene.output.error_estimate)
-    PetscCall(ReportErrors(comm, input, from_file, start, recorder, completed, progress, write));
+  PetscCall(ReportErrors(comm, input, from_file, start, recorder, completed, progress, write));
   if (status == exit_status::cannot_go_on) print_error(outcome.reason);
   PetscFunctionReturn(0);
 }

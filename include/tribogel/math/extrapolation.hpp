@@ -18,8 +18,8 @@ namespace tribogel
 /// How a series behaves, and with it how it is judged. "Distance" is that of the finest value from the fit's limit.
 enum class Convergence {
   confirmed,  ///< order from 0.5 to 2: 1.25 distance + scatter
-  fast,       ///< order above 2, taken for 2: as confirmed; of three levels 3 distance
-  slow,       ///< order below 0.5, taken for 0.5: likewise
+  fast,       ///< order above 2, taken for 2: as confirmed; of three levels 3 spread
+  slow,       ///< order below 0.5, taken for 0.5: likewise, or 3 distance if that is larger
   oscillates, ///< three levels, not monotone: 3 spread
   few_levels, ///< two levels, no order: 3 times their difference; order known: 3 distance
   settled,    ///< no change but round-off: 3 spread
@@ -97,8 +97,8 @@ inline double best_order(const std::vector<Level> &levels)
   return (low + high) / 2;
 }
 
-/// Three levels or more.
-inline Extrapolation judge_by_fit(const std::vector<Level> &levels)
+/// Three levels, of which `spread` is known, or more.
+inline Extrapolation judge_by_fit(const std::vector<Level> &levels, double spread)
 {
   const double finest = levels.back().value, p = best_order(levels);
   const double used = std::clamp(p, lowest_order, highest_order);
@@ -106,10 +106,13 @@ inline Extrapolation judge_by_fit(const std::vector<Level> &levels)
                               : p > used                ? Convergence::fast
                                                         : Convergence::slow;
   const Fit fit = fit_of_order(levels, used);
-  const bool three = levels.size() == 3;
-  const double factor = three && verdict != Convergence::confirmed ? doubtful_factor : confirmed_factor;
-  const double scatter = three ? 0 : std::sqrt(fit.squares / (static_cast<double>(levels.size()) - 3));
-  return {verdict, fit.limit, factor * std::abs(fit.finest - fit.limit) + scatter + std::abs(finest - fit.finest), p};
+  const double distance = std::abs(fit.finest - fit.limit), misfit = std::abs(finest - fit.finest);
+  if (levels.size() > 3) {
+    const double scatter = std::sqrt(fit.squares / (static_cast<double>(levels.size()) - 3));
+    return {verdict, fit.limit, confirmed_factor * distance + scatter + misfit, p};
+  }
+  if (verdict == Convergence::confirmed) return {verdict, fit.limit, confirmed_factor * distance + misfit, p};
+  return {verdict, finest, doubtful_factor * std::max(spread, distance), p};
 }
 
 } // namespace extrapolation
@@ -135,7 +138,7 @@ inline Extrapolation extrapolate(std::vector<Level> levels, double scale = 0)
     return {Convergence::settled, finest, whole};
   if (levels.size() < 3) return {Convergence::few_levels, finest, whole};
   if (levels.size() == 3 && rises > 0 && falls > 0) return {Convergence::oscillates, finest, whole};
-  return judge_by_fit(levels);
+  return judge_by_fit(levels, spread);
 }
 
 /// Of the value at the first of two levels, of any sizes, where the order is known.

@@ -1,0 +1,1 @@
+"""What tools/reproduce-paper is made of: the runs, their numbers with errors, pictures, words, and the report's pages."""
