@@ -7,7 +7,8 @@
 
 A parameter p is moved to p (1 + s) and p (1 - s) for two sizes of s; the relative sensitivity (dv/v)/(dp/p), in per cent per
 per cent, is the central difference over s, extrapolated from both sizes (error of order s^2), and its error is what the two
-differ by. Coefficients of friction that are 0 have no relative change: see `Term`.
+differ by. Lengths, which move the mesh, are moved less than the others, so that no number of edges changes: where the number of
+unknowns does, both sizes are halved, twice at most. Coefficients of friction that are 0 have no relative change: see `Term`.
 """
 import concurrent.futures
 import csv
@@ -23,6 +24,7 @@ from program import in_environment
 QUANTITIES = {"N": "normal_force_N", "T": "torque_Nmm"}
 NEWTON = 1e-7  # relative: below that differences of two runs mean nothing
 NOTHING = 1e-9  # a torque below this part of the largest N R is none
+HALVINGS = 2  # of the step, to keep the mesh
 
 
 class BadInput(Exception):
@@ -44,6 +46,7 @@ class Scaled:
     meaning: str
     options: tuple
     entry: int = None
+    length: bool = False
     central, unit = True, "% per %"
 
     def moved(self, scene, step):
@@ -68,7 +71,8 @@ class Term:
     name: str
     meaning: str
     exponent: float
-    unit = "% per % of mu at the mean speed"
+    length = False
+    unit = "per cent of it by a term that adds 1 % to mu at the mean speed, 2/3 omega R, of the phase"
 
     @property
     def central(self):
@@ -88,7 +92,8 @@ class Term:
         return ["-friction_coefficients", text_of(coefficients), "-friction_exponents", text_of(exponents)]
 
     def weight(self, scene, rate):
-        """The change of mu at the mean speed of a phase, relative to mu there, for a step of 1."""
+        """The change of mu at the mean speed of a phase, relative to mu there, for a step of 1. The absolute sensitivity
+        is per unit of mu at that speed."""
         speed = scene.mean_speed(rate)
         return self.coefficient(scene, 1.0) * speed**self.exponent / scene.friction(speed) if speed else math.nan
 
@@ -121,9 +126,9 @@ class SceneOptions:
 def geometry(scene):
     if scene.options.get("mesh_file"):
         return []
-    found = [Scaled(f"{body} {size}", f"{size} of the {body} gel", (f"{body}_{size}",))
+    found = [Scaled(f"{body} {size}", f"{size} of the {body} gel", (f"{body}_{size}",), length=True)
              for size in ("height", "radius") for body in scene.bodies]
-    return found + [Scaled("approach", "approach in all phases", ("schedule_approach",))]
+    return found + [Scaled("approach", "approach in all phases", ("schedule_approach",), length=True)]
 
 
 def materials(scene):
@@ -176,6 +181,7 @@ class Row:
     quantity: str
     sensitivity: float  # extrapolated from both steps
     error: float  # difference of the two
+    absolute: float  # of a term of friction: N or N mm per unit of mu at the mean speed of the phase
     coarse_step: float
     fine_step: float
     mesh_kept: bool  # all runs have the same number of unknowns
@@ -194,10 +200,11 @@ def differences(step, values, central):
 class Study:
     """All runs of one scene, and what follows from them."""
 
-    def __init__(self, program, options_files, further, output, step=0.04, jobs=1, only=None, said=print):
+    def __init__(self, program, options_files, further, output, step=0.04, length_step=0.004, jobs=1, only=None,
+                 said=print):
         self.program, self.further, self.output = program, list(further), pathlib.Path(output)
         self.files = [word for path in options_files for word in ("-options_file", str(path))]
-        self.step, self.jobs, self.only, self.said = step, jobs, only, said
+        self.step, self.length_step, self.jobs, self.only, self.said = step, length_step, jobs, only, said
         self.rows, self.failures, self.cpu_seconds, self.runs = [], [], 0.0, 0
 
     def solve(self, name, words):
@@ -227,40 +234,54 @@ class Study:
             for number, rows in enumerate(pool.map(lambda p: self.vary(p, scene, base), parameters), 1):
                 self.rows += rows
                 if rows:
-                    self.said(f"{number}/{len(parameters)} {rows[0].parameter}: N at the end {rows[-2].sensitivity:+.4f}, "
-                              f"T {rows[-1].sensitivity:+.4f}")
+                    said = ", ".join(f"{row.quantity} {row.sensitivity:+.4f}" for row in rows if row.phase == len(scene.phases))
+                    self.said(f"{number}/{len(parameters)} {rows[0].parameter}: at the end {said}")
         for line in self.failures:
             self.said(line)
 
-    def vary(self, parameter, scene, base):
-        multiples = (1, -1, 0.5, -0.5) if parameter.central else (1, 0.5)
-        found = {0: base}
-        for k in multiples:
-            summary, failure = self.solve(f"{parameter.name} {k:+g}", parameter.moved(scene, k * self.step))
+    def moved(self, parameter, scene, change, known):
+        """The summary of a run with the parameter changed; each change is run once."""
+        if change not in known:
+            summary, failure = self.solve(f"{parameter.name} {100 * change:+g} %", parameter.moved(scene, change))
             if not summary:
-                self.failures.append(f"{parameter.name}: no number: {failure}")
-                return []
-            found[k] = summary
+                raise BadInput(failure)
+            known[change] = summary
             self.cpu_seconds += summary["cost"]["cpu_s"]
             self.runs += 1
-        kept = len({summary["counts"]["unknowns"] for summary in found.values()}) == 1
-        return [self.row(parameter, scene, found, kept, phase, quantity)
-                for phase in range(len(scene.phases)) for quantity in QUANTITIES]
+        return known[change]
 
-    def row(self, parameter, scene, found, kept, phase, quantity):
+    def vary(self, parameter, scene, base):
+        multiples = (1, -1, 0.5, -0.5) if parameter.central else (1, 0.5)
+        known = {0.0: base}
+        try:
+            for halvings in range(HALVINGS + 1):
+                step = (self.length_step if parameter.length else self.step) / 2**halvings
+                found = {k: self.moved(parameter, scene, k * step, known) for k in (0, *multiples)}
+                kept = len({summary["counts"]["unknowns"] for summary in found.values()}) == 1
+                if kept:
+                    break
+        except BadInput as failure:
+            self.failures.append(f"{parameter.name}: no number: {failure}")
+            return []
+        return [self.row(parameter, scene, found, step, kept, phase, quantity)
+                for quantity in QUANTITIES for phase in range(len(scene.phases))]
+
+    def row(self, parameter, scene, found, step, kept, phase, quantity):
         at, column = scene.phases[phase], QUANTITIES[quantity]
         values = {k: summary["phases"][phase][column] for k, summary in found.items()}
         radius = float(scene.options["top_radius" if scene.both else "bottom_radius"])
         force = max(abs(p["normal_force_N"]) for p in scene.phases)
-        size = abs(values[0])
-        weight = parameter.weight(scene, at["rate_rad_per_s"])
-        sensitivity = error = math.nan
+        rate, size = at["rate_rad_per_s"], abs(values[0])
+        weight = parameter.weight(scene, rate)
+        sensitivity = error = absolute = math.nan
         if size > NOTHING * force * (radius if quantity == "T" else 1) and weight == weight:
-            sensitivity, error = differences(self.step, values, parameter.central)
+            sensitivity, error = differences(step, values, parameter.central)
             sensitivity /= values[0] * weight
-            error = (error / size + NEWTON / self.step) / abs(weight)
-        return Row(parameter.name, parameter.meaning, parameter.unit, phase + 1, at["time_s"], at["rate_rad_per_s"],
-                   quantity, sensitivity, error, self.step, self.step / 2, kept)
+            error = (error / size + NEWTON / step) / abs(weight)
+            if isinstance(parameter, Term):
+                absolute = sensitivity * values[0] / scene.friction(scene.mean_speed(rate))
+        return Row(parameter.name, parameter.meaning, parameter.unit, phase + 1, at["time_s"], rate, quantity, sensitivity,
+                   error, absolute, step, step / 2, kept)
 
     def write(self):
         with open(self.output / "sensitivity.csv", "w", newline="", encoding="utf-8") as file:
@@ -271,31 +292,43 @@ class Study:
         (self.output / "sensitivity.md").write_text(self.markdown(), encoding="utf-8")
 
     def columns(self):
-        """Phases and quantities that some parameter changes, those without a difference to the phase before left out."""
+        """(quantity, first phase, last phase): neighbours that do not differ by more than their errors are one."""
         table = {}
         for row in self.rows:
-            table.setdefault((row.quantity, row.phase), []).append(shown(row.sensitivity, row.error))
+            table.setdefault((row.quantity, row.phase), []).append(row)
         columns = []
-        for key in sorted(table):
-            before = table.get((key[0], key[1] - 1))
-            if any(cell != "-" for cell in table[key]) and table[key] != before:
-                columns.append(key)
+        for (quantity, phase), rows in sorted(table.items()):
+            if all(math.isnan(row.sensitivity) for row in rows):
+                continue
+            if columns and columns[-1][0] == quantity and all(map(alike, table[quantity, columns[-1][2]], rows)):
+                columns[-1][2] = phase
+            else:
+                columns.append([quantity, phase, phase])
         return columns
 
     def markdown(self):
         columns = self.columns()
-        cells = {(row.parameter, row.quantity, row.phase): shown(row.sensitivity, row.error) for row in self.rows}
-        lines = ["| parameter | " + " | ".join(f"{quantity}, end of phase {phase}" for quantity, phase in columns) + " |",
-                 "|---" * (len(columns) + 1) + "|"]
-        for name, row in {row.parameter: row for row in self.rows}.items():
-            mark = "" if row.mesh_kept else " (mesh not the same)"
-            lines.append(f"| {name}: {row.meaning}{mark} | "
-                         + " | ".join(cells[name, quantity, phase] for quantity, phase in columns) + " |")
-        lines += ["", "Per cent per per cent; in brackets the error of the last digits, from two sizes of the change, "
-                  f"+-{100 * self.step:g} % and +-{50 * self.step:g} %. A phase that is left out has the numbers of the one before.",
-                  *sorted({f"{row.parameter}: {row.unit}." for row in self.rows if row.unit != Scaled.unit}),
-                  *self.failures, f"{self.runs} runs, {self.cpu_seconds:.0f} CPU s."]
+        by_place = {(row.parameter, row.quantity, row.phase): row for row in self.rows}
+        names = list({row.parameter: row for row in self.rows})
+        heads = [f"{q}, phase {a}" if a == b else f"{q}, phases {a} to {b}" for q, a, b in columns]
+        lines = ["| parameter | " + " | ".join(heads) + " |", "|---" * (len(columns) + 1) + "|"]
+        notes = []
+        for name in names:
+            rows = [by_place[name, quantity, last] for quantity, _, last in columns]
+            lines.append(f"| {name}: {rows[0].meaning} | " + " | ".join(shown(r.sensitivity, r.error) for r in rows) + " |")
+            if not rows[0].mesh_kept:
+                notes.append(f"{name}: the number of elements changes with it.")
+            if rows[0].unit != Scaled.unit:
+                notes.append(f"{name}: {rows[-1].unit}; T by {rows[-1].absolute:.4g} N mm per unit of mu there.")
+        lines += ["", "Per cent per per cent, at the phases' ends; in brackets the error of the last digits, from changes of the "
+                  f"parameter by two sizes, +-{100 * self.step:g} % and half of that (lengths: {100 * self.length_step:g} %).",
+                  *notes, *self.failures, f"{self.runs} runs, {self.cpu_seconds:.0f} CPU s."]
         return "\n".join(lines) + "\n"
+
+
+def alike(a, b):
+    """Two numbers agree within their errors and what is shown, or one is missing."""
+    return not abs(a.sensitivity - b.sensitivity) > a.error + b.error + 2e-4
 
 
 def shown(value, error):

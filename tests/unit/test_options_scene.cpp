@@ -93,6 +93,7 @@ TEST(OptionsScene, defaults_are_the_paper_scene)
   EXPECT_EQ(scene_from_options({{"-model", "solid"}, {"-elements_radial", "5"}}).scene.mesh.elements_radial, 5);
   EXPECT_EQ(scene.output.directory, "tribogel-output");
   EXPECT_FALSE(scene.output.overwrite);
+  EXPECT_FALSE(scene.output.error_estimate);
   EXPECT_TRUE(input.warnings.empty()) << joined(input.warnings);
   EXPECT_TRUE(input.notes.empty()) << joined(input.notes);
 }
@@ -135,6 +136,7 @@ TEST(OptionsScene, each_option_reaches_its_place)
                                           {"-mesh_refinements", "2"},
                                           {"-output_directory", "here/there"},
                                           {"-overwrite", ""},
+                                          {"-error_estimate", "true"},
                                           {"-checkpoint_every", "7.5"},
                                           {"-wall_time", "86000"}})
                           .scene;
@@ -167,6 +169,7 @@ TEST(OptionsScene, each_option_reaches_its_place)
   EXPECT_EQ(scene.mesh.elements_radial, 9);
   EXPECT_EQ(scene.mesh.grading, 3.5);
   EXPECT_EQ(scene.mesh.refinements, 2);
+  EXPECT_TRUE(scene.output.error_estimate);
   EXPECT_EQ(scene.output.directory, "here/there");
   EXPECT_TRUE(scene.output.overwrite);
   EXPECT_EQ(scene.output.checkpoint_every, 7.5);

@@ -103,6 +103,18 @@ class ErrorOption(unittest.TestCase):
         self.assertGreater(self.errors("fixed")[0][0], 0)
         self.assertIsNone(self.errors("fixed")[0][1])
 
+    def test_a_companion_that_fails_is_named_and_the_run_is_well(self):
+        self.run_program("plain", SCENE)
+        steps = str(self.summary("plain")["counts"]["accepted_steps"])
+        self.run_program("limited", SCENE + ASKED + ["-ts_max_steps", steps])  # too few for the shorter ones
+        estimate = self.summary("limited")["error_estimate"]
+        self.assertEqual([c["tolerance_over_run"] < 1 for c in estimate["companions"]],
+                         ["-ts_max_steps" in c["failure"] for c in estimate["companions"]])
+        self.assertEqual(len(estimate["notes"]), 1)
+        self.assertIn("failed: -ts_max_steps", estimate["notes"][0])
+        self.assertGreater(self.errors("limited")[0][0], 0)
+        self.assertIsNone(self.errors("limited")[0][1])
+
     def test_a_run_that_is_complete_gets_it_by_restart(self):
         self.run_program("asked", SCENE + ASKED)
         self.run_program("late", SCENE)
