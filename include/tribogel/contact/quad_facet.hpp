@@ -73,13 +73,6 @@ template <int order> struct QuadMeasure {
   DualBasis<nodes> basis;
   double area;                      ///< int dS [mm^2]
   std::array<double, nodes> extent; ///< int |N_a| dS [mm^2]
-  /// The sides of a quadrilateral around the undeformed facet, parallel to those through its corners, in the
-  /// coordinates l of QuadFrame: inside is normal . l < distance.
-  struct Side {
-    Vector2<double> normal;
-    double distance;
-  };
-  std::array<Side, 4> outline;
 
   struct Weight {
     double value;
@@ -152,14 +145,6 @@ template <int order> QuadMeasure<order> quad_measure(const QuadPoints<order> &X)
     }
   }
   facet.basis = dual_basis<nodes>(D, M);
-  const QuadFrame<order> frame(X);
-  constexpr int around[5] = {0, order, nodes - 1, nodes - 1 - order, 0};
-  for (int side = 0; side < 4; ++side) {
-    const Vector2<double> p = frame(X[around[side]]), along = frame(X[around[side + 1]]) - p,
-                          normal(along[1], -along[0]);
-    facet.outline[side] = {normal, normal.dot(p)};
-    for (const auto &x : X) facet.outline[side].distance = std::max(facet.outline[side].distance, normal.dot(frame(x)));
-  }
   return facet;
 }
 
