@@ -123,6 +123,23 @@ TEST(newton, IsQuadraticOnThePaperSchedule)
   }
 }
 
+/// In space the cells in which surfaces meet are cut otherwise from one iterate to the next, which may not be seen.
+TEST(newton, IsQuadraticInSpace)
+{
+  const SolverOptions options({{"-snes_rtol", "1e-14"}, {"-ts_atol", "1e-2"}});
+  for (int order : {1, 2}) {
+    Scene scene = paper_scene(order == 2 ? 2 : 3, order);
+    scene.model = Model::solid;
+    scene.plate_contact = false;
+    scene.mesh.grading = 1;
+    scene.schedule = schedule_from_rates({27, 81, 108}, {0.79, 0.79, 0.79}, {0, 0, 0.1});
+    Outcome outcome;
+    watch(scene, outcome);
+    EXPECT_GE(outcome.counted, 10u) << "order " << order;
+    EXPECT_LE(outcome.spread, 10) << "order " << order;
+  }
+}
+
 TEST(newton, IsSeenToBeLinearWithAnOldMatrix)
 {
   const SolverOptions options(to_the_floor);

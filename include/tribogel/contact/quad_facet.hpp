@@ -73,13 +73,6 @@ template <int order> struct QuadMeasure {
   DualBasis<nodes> basis;
   double area;                      ///< int dS [mm^2]
   std::array<double, nodes> extent; ///< int |N_a| dS [mm^2]
-  /// The sides of a quadrilateral around the undeformed facet, parallel to those through its corners, in the
-  /// coordinates l of QuadFrame: inside is normal . l < distance.
-  struct Side {
-    Vector2<double> normal;
-    double distance;
-  };
-  std::array<Side, 4> outline;
 
   struct Weight {
     double value;
@@ -128,6 +121,26 @@ template <int order> struct QuadFrame {
   }
 };
 
+/// A line parallel to that through two corners of a facet which has all its nodes on one side, in the coordinates of
+/// its frame: normal . l <= normal . l(outermost).
+template <int order> struct QuadSide {
+  int from, to; ///< the corners
+  Vector2<double> normal;
+  int outermost; ///< the node on the line
+
+  QuadSide(const QuadFrame<order> &frame, const QuadPoints<order> &x, int number)
+  {
+    constexpr int nodes = tensor_nodes<2, order>;
+    constexpr int around[5] = {0, order, nodes - 1, nodes - 1 - order, 0};
+    from = outermost = around[number];
+    to = around[number + 1];
+    const Vector2<double> along = frame(x[to]) - frame(x[from]);
+    normal = {along[1], -along[0]};
+    for (int b = 0; b < nodes; ++b)
+      if (normal.dot(frame(x[b])) > normal.dot(frame(x[outermost]))) outermost = b;
+  }
+};
+
 /// How far along n from x the plane through c with the normal m is [mm]; 0 if n hardly meets it.
 inline double way_to_plane(const Vector3<double> &x, const Vector3<double> &n, const Vector3<double> &c,
                            const Vector3<double> &m)
@@ -161,14 +174,6 @@ template <int order> QuadMeasure<order> quad_measure(const QuadPoints<order> &X)
     }
   }
   facet.basis = dual_basis<nodes>(D, M);
-  const QuadFrame<order> frame(X);
-  constexpr int around[5] = {0, order, nodes - 1, nodes - 1 - order, 0};
-  for (int side = 0; side < 4; ++side) {
-    const Vector2<double> p = frame(X[around[side]]), along = frame(X[around[side + 1]]) - p,
-                          normal(along[1], -along[0]);
-    facet.outline[side] = {normal, normal.dot(p)};
-    for (const auto &x : X) facet.outline[side].distance = std::max(facet.outline[side].distance, normal.dot(frame(x)));
-  }
   return facet;
 }
 

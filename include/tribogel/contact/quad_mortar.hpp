@@ -31,9 +31,6 @@ template <int order> inline constexpr int outline_chords = order;
 /// points far from a distorted facet have no projection.
 inline constexpr double outline_margin = 1.1;
 
-/// And at most so many times, however the facet is distorted.
-inline constexpr double widest_outline = 4;
-
 namespace quad_mortar
 {
 
@@ -131,42 +128,37 @@ private:
       }
   }
 
-  /// So large that the facet is inside, and by how much that grows with the facet's positions.
-  struct Margin {
-    double value;
-    Row d = Row::Zero();
-  };
-  Margin margin_around(const QuadFrame<order> &frame) const
+  /// d l / d (the slave facet's positions) of its node b.
+  Eigen::Matrix<double, 2, 3 * nodes> node_slope(const QuadFrame<order> &frame, int b) const
   {
-    double widest = pair.neighbourhood;
-    int corner = -1;
-    const typename QuadMeasure<order>::Side *touched = nullptr;
-    for (const auto &side : measure.outline)
-      for (int b = 0; b < nodes; ++b) {
-        const double reach = side.normal.dot(frame(pair.x[b])) / side.distance;
-        if (reach > widest) widest = reach, corner = b, touched = &side;
-      }
-    const double limit = std::max(widest_outline, pair.neighbourhood);
-    Margin margin{outline_margin * std::min(widest, limit)};
-    if (!touched || !with_derivatives || widest > limit) return margin;
-    const Eigen::Matrix<double, 1, 2> turn = outline_margin / touched->distance * touched->normal.transpose();
-    for (int a = 0; a < nodes; ++a) margin.d.template segment<3>(3 * a) = turn * frame.slope(pair.x[corner], a);
-    margin.d.template segment<3>(3 * corner) += turn * frame.L;
-    return margin;
+    Eigen::Matrix<double, 2, 3 * nodes> d;
+    for (int a = 0; a < nodes; ++a) d.template middleCols<3>(3 * a) = frame.slope(pair.x[b], a);
+    d.template middleCols<3>(3 * b) += frame.L;
+    return d;
   }
 
   void cut_to_neighbourhood(const QuadFrame<order> &frame)
   {
-    const Margin margin = margin_around(frame);
-    for (const auto &side : measure.outline)
+    const double margin = outline_margin * pair.neighbourhood;
+    for (int number = 0; number < 4; ++number) {
+      const QuadSide<order> side(frame, pair.x, number);
+      const Vector2<double> &normal = side.normal, reach = margin * frame(pair.x[side.outermost]);
+      Eigen::Matrix<double, 1, 3 * nodes> d_reach;
+      Eigen::Matrix<double, 2, 3 * nodes> d_along;
+      if (with_derivatives) {
+        d_reach = margin * normal.transpose() * node_slope(frame, side.outermost);
+        d_along = node_slope(frame, side.to) - node_slope(frame, side.from);
+      }
       cut(
-          places, [&](const Place &p) { return margin.value * side.distance - side.normal.dot(frame(p.at)); },
+          places, [&](const Place &p) { return normal.dot(reach - frame(p.at)); },
           [&](const Place &p) {
-            Row d = margin.d * side.distance - side.normal.transpose() * frame.L * p.d;
-            for (int a = 0; a < nodes; ++a)
-              d.template segment<3>(3 * a) -= side.normal.transpose() * frame.slope(p.at, a);
+            const Vector2<double> arm = reach - frame(p.at);
+            Row d = -normal.transpose() * frame.L * p.d;
+            d.template head<3 * nodes>() += d_reach + arm[0] * d_along.row(1) - arm[1] * d_along.row(0);
+            for (int a = 0; a < nodes; ++a) d.template segment<3>(3 * a) -= normal.transpose() * frame.slope(p.at, a);
             return d;
           });
+    }
   }
 
   static double cross(const Vector2<double> &a, const Vector2<double> &b) { return a[0] * b[1] - a[1] * b[0]; }

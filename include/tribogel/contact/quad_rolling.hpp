@@ -22,8 +22,7 @@ template <int order> Vector3<double> nearest_point(const QuadPoints<order> &face
 /// How many times as wide as the facet the part of the master is that the normals at its nodes meet, taken as a plane
 /// through c with the normal m.
 template <int order>
-double width_met(const QuadMeasure<order> &measure, const QuadPoints<order> &facet, const Vector3<double> &c,
-                 const Vector3<double> &m)
+double width_met(const QuadPoints<order> &facet, const Vector3<double> &c, const Vector3<double> &m)
 {
   constexpr double widest = 6;
   const QuadFrame<order> frame(facet);
@@ -32,7 +31,10 @@ double width_met(const QuadMeasure<order> &measure, const QuadPoints<order> &fac
     const auto dN = tensor_shape<2, order>(quad_corner<order>(static_cast<int>(a))).dN;
     const Vector3<double> n = tangent(dN, facet, 0).cross(tangent(dN, facet, 1)).normalized();
     const Vector3<double> met = facet[a] + way_to_plane(facet[a], n, c, m) * n;
-    for (const auto &side : measure.outline) width = std::max(width, side.normal.dot(frame(met)) / side.distance);
+    for (int number = 0; number < 4; ++number) {
+      const QuadSide<order> side(frame, facet, number);
+      width = std::max(width, side.normal.dot(frame(met)) / side.normal.dot(frame(facet[side.outermost])));
+    }
   }
   return std::min(width, widest);
 }
@@ -40,9 +42,8 @@ double width_met(const QuadMeasure<order> &measure, const QuadPoints<order> &fac
 /// Whether a wall's facet leans over the master and is within its own extent (the smaller one) of it, measured along
 /// its normal, and the width of its neighbourhood.
 template <int order>
-std::pair<bool, double> may_touch(const QuadMeasure<order> &measure, const QuadPoints<order> &facet,
-                                  const QuadSurface &master, const std::vector<Vector3<double>> &y,
-                                  const quad_search::Tree &tree)
+std::pair<bool, double> may_touch(const QuadPoints<order> &facet, const QuadSurface &master,
+                                  const std::vector<Vector3<double>> &y, const quad_search::Tree &tree)
 {
   const QuadFrame<order> frame(facet);
   const Vector3<double> n = frame.A.col(0).cross(frame.A.col(1)).normalized();
@@ -66,7 +67,7 @@ std::pair<bool, double> may_touch(const QuadMeasure<order> &measure, const QuadP
   }
   const double facing = -n.dot(normal);
   if (!(facing > least_facing) || nearest > facing * extent) return {false, 1};
-  return {true, width_met<order>(measure, facet, centre, normal)};
+  return {true, width_met<order>(facet, centre, normal)};
 }
 } // namespace quad_rolling
 
@@ -109,17 +110,16 @@ struct RollingFacets {
 };
 
 /// The facets that lean over the master, are near it and connected with the crease. Positions as SolidContact places
-/// them, measures of the wall's facets.
-template <int order>
-RollingFacets rolling_facets(const QuadSurface &wall, const std::vector<QuadMeasure<order>> &measures,
-                             const std::vector<Vector3<double>> &x, const std::vector<bool> &on_crease,
-                             const QuadSurface &master, const std::vector<Vector3<double>> &y)
+/// them.
+inline RollingFacets rolling_facets(const QuadSurface &wall, const std::vector<Vector3<double>> &x,
+                                    const std::vector<bool> &on_crease, const QuadSurface &master,
+                                    const std::vector<Vector3<double>> &y)
 {
   const quad_search::Tree tree = quad_search::tree_of(master, y);
   RollingFacets rolling;
   for (int f = 0; f < wall.facet_count(); ++f) {
-    const auto [touches, width] =
-        quad_rolling::may_touch<order>(measures[f], wall.on_facet<order>(f, x), master, y, tree);
+    const auto [touches, width] = wall.order == 1 ? quad_rolling::may_touch<1>(wall.on_facet<1>(f, x), master, y, tree)
+                                                  : quad_rolling::may_touch<2>(wall.on_facet<2>(f, x), master, y, tree);
     rolling.touch.push_back(touches);
     rolling.neighbourhood.push_back(width);
   }

@@ -58,12 +58,7 @@ public:
   RollingFacets rolling_facets(const ContactState<double> &state, const std::vector<bool> &on_crease) const
   {
     const Placed at = place(state);
-    return std::visit(
-        [&](const auto &measures) {
-          return tribogel::rolling_facets(geometry.slave_surface, measures, at.x, on_crease, geometry.master_surface,
-                                          at.y);
-        },
-        geometry.measures);
+    return tribogel::rolling_facets(geometry.slave_surface, at.x, on_crease, geometry.master_surface, at.y);
   }
 
   /// Evaluate the mortar integrals that the slave nodes first <= a < last need (all by default).
