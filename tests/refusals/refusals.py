@@ -109,8 +109,6 @@ REFUSALS = [
     ("Gauss points in the half plane", ["-contact_integration", "elements"], ["-contact_integration = elements",
                                                                             "segments with -model axisymmetric"]),
     ("one cell for a circle", ["-model", "solid", "-elements_radial", "1"], ["-elements_radial = 1", "at least 2"]),
-    ("pressure exponent in space", ["-model", "solid", "-friction_pressure_exponent", "0.5"],
-     ["-friction_pressure_exponent = 0.5", "1 with -model solid"]),
     ("pressure exponent", ["-friction_pressure_exponent", "1.2"], ["-friction_pressure_exponent = 1.2", "0 to 1"]),
     ("pressure floor", ["-friction_pressure_floor", "0"], ["-friction_pressure_floor = 0", "> 0"]),
     ("gap in the branches", ["-top_maxwell3_viscosities", "4,5"], ["-top_maxwell3_viscosities = 4,5"]),
