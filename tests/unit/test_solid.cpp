@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <memory>
 #include <random>
 
@@ -111,58 +110,4 @@ TEST(Solid, LinearFieldsAreReproduced)
     EXPECT_NEAR(sum[0], 1, 1e-14);
     for (int k = 1; k < 4; ++k) EXPECT_NEAR(sum[k], 0, 1e-13);
   }
-}
-
-namespace
-{
-
-template <int order> void print_speed(const Viscoelastic<double> &material, const char *name)
-{
-  using Element = typename Brick<order>::Element;
-  using Clock = std::chrono::steady_clock;
-  const Brick<order> brick(2);
-  std::vector<double> history, next(static_cast<std::size_t>(Element::points * material.history_size()));
-  for (int q = 0; q < Element::points; ++q) {
-    const std::vector<double> some = samples::initial(material);
-    history.insert(history.end(), some.begin(), some.end());
-  }
-  const auto evaluation = std::make_unique<typename Element::template Evaluation<double>>();
-  const auto K = std::make_unique<typename Element::Matrix>();
-  const int repeats = order == 1 ? 4000 : 1000;
-  const auto rate = [&](const auto &work) {
-    const auto start = Clock::now();
-    for (int k = 0; k < repeats; ++k) work();
-    return repeats * Element::points / std::chrono::duration<double>(Clock::now() - start).count();
-  };
-  double sum = 0;
-  const auto evaluate = [&](bool tangent) {
-    evaluation->set({}, brick.cell, material, brick.U, history.data(), {0.37}, next.data(), tangent);
-  };
-  const double residual = rate([&] {
-    evaluate(false);
-    sum += Element::template forces<double>({}, brick.cell, *evaluation)[0];
-  });
-  const double both = rate([&] {
-    evaluate(true);
-    sum += Element::template forces<double>({}, brick.cell, *evaluation)[0];
-    Element::tangent({}, brick.cell, *evaluation, *K);
-    sum += (*K)(0, 0);
-  });
-  const double tangent = rate([&] {
-    Element::tangent({}, brick.cell, *evaluation, *K);
-    sum += (*K)(0, 0);
-  });
-  std::printf("order %d %-12s points/s: residual %.3g, residual and tangent %.3g, tangent of a known state %.3g; "
-              "evaluation %zu B, cell %zu B (%g)\n",
-              order, name, residual, both, tangent, sizeof *evaluation, sizeof brick.cell, sum);
-}
-
-} // namespace
-
-TEST(Solid, DISABLED_Speed)
-{
-  print_speed<1>(samples::hyperelastic(), "hyperelastic");
-  print_speed<1>(samples::paper(), "paper");
-  print_speed<2>(samples::hyperelastic(), "hyperelastic");
-  print_speed<2>(samples::paper(), "paper");
 }
