@@ -275,16 +275,22 @@ PetscErrorCode Condensation::BuildLeft(const ContactUnknowns &unknowns, IS displ
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Condensation::BuildReduced(const ContactUnknowns &unknowns)
+/// S, in its old place where the pattern has not changed.
+PetscErrorCode Condensation::BuildReduced(const ContactUnknowns &unknowns, bool anew)
 {
-  MatHandle AP;
   PetscFunctionBegin;
-  PetscCall(MatMatMult(A, P, MAT_INITIAL_MATRIX, PETSC_DEFAULT, AP.put()));
-  PetscCall(MatMatMult(L, AP, MAT_INITIAL_MATRIX, PETSC_DEFAULT, S.put()));
+  if (anew) {
+    PetscCall(MatMatMult(A, P, MAT_INITIAL_MATRIX, PETSC_DEFAULT, AP.put()));
+    PetscCall(MatMatMult(L, AP, MAT_INITIAL_MATRIX, PETSC_DEFAULT, S.put()));
+  } else {
+    Mat product = AP, reduced = S;
+    PetscCall(MatMatMult(A, P, MAT_REUSE_MATRIX, PETSC_DEFAULT, &product));
+    PetscCall(MatMatMult(L, AP, MAT_REUSE_MATRIX, PETSC_DEFAULT, &reduced));
+  }
   for (std::size_t a = 0; a < nodes.size(); ++a)
     if (reduced_row[a] >= 0) PetscCall(SetBlock(S, reduced_row[a], reduced_row[a], nodes[a].idle, ADD_VALUES));
   PetscCall(Assemble(S));
-  if (unknowns.whole_nodes) {
+  if (anew && unknowns.whole_nodes) {
     MatNullSpace rigid;
     PetscCall(MatSetBlockSize(S, 3));
     PetscCall(MatNullSpaceCreateRigidBody(unknowns.place, &rigid));
@@ -294,20 +300,13 @@ PetscErrorCode Condensation::BuildReduced(const ContactUnknowns &unknowns)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Condensation::SetUp(Mat given, const ContactUnknowns &unknowns)
+/// The parts of A that couple the slave's unknowns with all others.
+PetscErrorCode Condensation::CutInterface()
 {
-  IsHandle displacements, all, interface, slaves;
+  IsHandle all, interface, slaves;
   std::vector<PetscInt> interface_rows, slave_columns;
   PetscInt first, last;
   PetscFunctionBegin;
-  PetscCall(PetscObjectReference(reinterpret_cast<PetscObject>(given)));
-  *A.put() = given;
-  PetscCall(ReadNodes(unknowns));
-  PetscCall(CreateIs(comm_of(A), unknowns.displacement, displacements));
-  PetscCall(BuildRight(unknowns, displacements));
-  PetscCall(BuildLeft(unknowns, displacements));
-  PetscCall(BuildReduced(unknowns));
-
   for (const NodeBlocks &node : nodes)
     for (int i = 0; i < 6; ++i) {
       if (i < 3 && node.slave < 0) continue;
@@ -323,6 +322,25 @@ PetscErrorCode Condensation::SetUp(Mat given, const ContactUnknowns &unknowns)
   PetscCall(MatCreateVecs(equations, nullptr, on_interface.put()));
   PetscCall(MatCreateVecs(prescribed, on_slave.put(), residual.put()));
   PetscCall(VecDuplicate(residual, held.put()));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Condensation::SetUp(Mat given, const ContactUnknowns &unknowns, bool &anew)
+{
+  IsHandle displacements;
+  PetscObjectState pattern_now;
+  PetscFunctionBegin;
+  PetscCall(MatGetNonzeroState(given, &pattern_now));
+  anew = given != static_cast<Mat>(A) || pattern_now != pattern;
+  pattern = pattern_now;
+  PetscCall(PetscObjectReference(reinterpret_cast<PetscObject>(given)));
+  *A.put() = given;
+  PetscCall(ReadNodes(unknowns));
+  PetscCall(CreateIs(comm_of(A), unknowns.displacement, displacements));
+  PetscCall(BuildRight(unknowns, displacements));
+  PetscCall(BuildLeft(unknowns, displacements));
+  PetscCall(BuildReduced(unknowns, anew));
+  PetscCall(CutInterface());
   PetscFunctionReturn(0);
 }
 

@@ -39,8 +39,8 @@ struct ContactUnknowns {
 class Condensation
 {
 public:
-  /// Collective.
-  PetscErrorCode SetUp(Mat A, const ContactUnknowns &unknowns);
+  /// `anew`: reduced() is another matrix than before; else the same one with new values. Collective.
+  PetscErrorCode SetUp(Mat A, const ContactUnknowns &unknowns, bool &anew);
 
   /// Right-hand side of S y = g for A x = f, and x from y. Collective.
   PetscErrorCode Restrict(Vec f, Vec g);
@@ -74,10 +74,12 @@ private:
   PetscErrorCode ReadNodes(const ContactUnknowns &unknowns);
   PetscErrorCode BuildRight(const ContactUnknowns &unknowns, IS displacements);
   PetscErrorCode BuildLeft(const ContactUnknowns &unknowns, IS displacements);
-  PetscErrorCode BuildReduced(const ContactUnknowns &unknowns);
+  PetscErrorCode BuildReduced(const ContactUnknowns &unknowns, bool anew);
+  PetscErrorCode CutInterface();
   static void Classify(NodeBlocks &node);
 
-  MatHandle A, P, L, S;
+  MatHandle A, P, L, AP, S;
+  PetscObjectState pattern = 0; ///< of A
   MatHandle equations, prescribed; ///< of A: of the interface's equations, of the slave displacements
   VecHandle held, residual, on_interface, on_slave;
   std::vector<NodeBlocks> nodes;

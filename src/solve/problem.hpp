@@ -158,7 +158,8 @@ private:
   PetscErrorCode ListContactUnknowns();
   PetscErrorCode MeasurePlate();
   PetscErrorCode SetUpTs();
-  PetscErrorCode SetUpLinearSolver(KSP ksp);
+  PetscErrorCode SetUpLinearSolver(SNES snes);
+  PetscErrorCode HookLinearSolver(SNES snes);
   PetscReal ShortestStep() const; ///< of the phase [s]
   PetscReal LongestStep() const;  ///< of the phase [s]
   PetscErrorCode RunPhase(int k);
