@@ -62,6 +62,7 @@ PetscErrorCode Problem::SetUpLinearSolver(KSP ksp)
 {
   PC pc;
   PetscFunctionBeginUser;
+  PetscCall(RegisterContactPc());
   PetscCall(KSPSetType(ksp, KSPPREONLY));
   PetscCall(KSPSetPreSolve(ksp, Factorise, nullptr));
   PetscCall(KSPGetPC(ksp, &pc));

@@ -6,6 +6,7 @@
 #include "contact/contact.hpp"
 #include "mesh/cylinder.hpp"
 #include "mesh/mesh.hpp"
+#include "solve/contact_pc.hpp"
 #include "solve/failure.hpp"
 #include "solve/log_events.hpp"
 #include "solve/observer.hpp"
@@ -154,6 +155,7 @@ private:
   PetscErrorCode SetRates(double step, Vec U);
   PetscErrorCode LocateWorst(const double *f);
   PetscErrorCode SetUpFields();
+  PetscErrorCode ListContactUnknowns();
   PetscErrorCode MeasurePlate();
   PetscErrorCode SetUpTs();
   PetscErrorCode SetUpLinearSolver(KSP ksp);
@@ -171,13 +173,14 @@ private:
   } told;
 
   std::vector<Observer *> watching;
-  PetscReal given_first_step = 0;                  ///< `-ts_dt` [s], 0 if not given
-  PetscReal given_longest_step = 0;                ///< `-ts_adapt_dt_max` [s]
-  PetscInt rejected_before = 0, failed_before = 0; ///< counts that TS does not know of
-  VecHandle before;                                ///< U at the start of the step
-  double plate_at_rest = 0;                        ///< plate_height() before it moves against the gel's frame [mm]
-  std::vector<int> plate_nodes;                    ///< on the top plate, indices into mesh.nodes
-  PlateLoads plate_loads{};                        ///< on this rank's cells in the last evaluation of the residual
+  PetscReal given_first_step = 0;                          ///< `-ts_dt` [s], 0 if not given
+  PetscReal given_longest_step = 0;                        ///< `-ts_adapt_dt_max` [s]
+  PetscInt rejected_before = 0, failed_before = 0;         ///< counts that TS does not know of
+  std::shared_ptr<const ContactUnknowns> contact_unknowns; ///< null in the half plane
+  VecHandle before;                                        ///< U at the start of the step
+  double plate_at_rest = 0;     ///< plate_height() before it moves against the gel's frame [mm]
+  std::vector<int> plate_nodes; ///< on the top plate, indices into mesh.nodes
+  PlateLoads plate_loads{};     ///< on this rank's cells in the last evaluation of the residual
   friend PetscErrorCode PreStep(TS);
 };
 

@@ -43,6 +43,7 @@ private:
 using DmHandle = Handle<DM, DMDestroy>;
 using VecHandle = Handle<Vec, VecDestroy>;
 using MatHandle = Handle<Mat, MatDestroy>;
+using KspHandle = Handle<KSP, KSPDestroy>;
 using TsHandle = Handle<TS, TSDestroy>;
 
 } // namespace tribogel
