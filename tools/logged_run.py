@@ -70,7 +70,8 @@ class Run:
 
     @property
     def newton(self):
-        return self.counts.get("newton_iterations", 0)
+        """Newton iterations, also those of failed solves, which the summary's count leaves out."""
+        return self.event("SNESLineSearch").count
 
     @property
     def newton_seconds(self):

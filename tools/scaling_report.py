@@ -19,7 +19,7 @@ def per_newton(run, name="SNESSolve", what="seconds"):
 
 
 def linear_per_newton(run):
-    return run.counts["linear_iterations"] / run.newton
+    return run.counts["linear_iterations"] / run.counts["newton_iterations"]
 
 
 def megabytes(run):
@@ -228,7 +228,8 @@ def draw(stem, runs, triad):
         right.set_title(f"strong scaling, {dofs(first)} dofs", fontsize=10)
         right.set_xlabel("efficiency")
         right.axvline(1, color="k", lw=0.8)
-        right.legend(fontsize=8)
+        right.invert_yaxis()
+        right.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=4)
     else:
         right.set_axis_off()
     for kind in ("png", "pdf"):
