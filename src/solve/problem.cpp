@@ -311,6 +311,7 @@ PetscErrorCode Problem::BuildMatrix()
   PetscInt local;
   ISLocalToGlobalMapping mapping;
   PetscFunctionBeginUser;
+  contraction = std::numeric_limits<double>::infinity(); // there is no old matrix
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm)));
   PetscCall(VecGetLocalSize(state.U, &local));
   PetscCall(DMGetLocalToGlobalMapping(mesh.dm, &mapping));
