@@ -45,8 +45,9 @@ public:
       cells.push_back(data);
     }
     history_size = offset;
-    known.resize(cells.size());
-    history_before.resize(history_size);
+    remembers = cells.size() * sizeof(Known) <= most_remembered;
+    known.resize(remembers ? cells.size() : 1);
+    if (remembers) history_before.resize(history_size);
     history_after.resize(history_size);
   }
 
@@ -54,9 +55,10 @@ public:
                           double *magnitude) override
   {
     for (std::size_t n = 0; n < cells.size(); ++n) {
-      const PointStatus status = Evaluate(n, U, history, step);
+      const Evaluation *evaluation;
+      const PointStatus status = Evaluate(n, U, history, step, false, evaluation);
       if (status != PointStatus::ok) return failure_of(cells[n], status);
-      const Vector R = Element::forces(kinematics, cells[n].cell, known[n].evaluation);
+      const Vector R = Element::forces(kinematics, cells[n].cell, *evaluation);
       for (int k = 0; k < dofs; ++k) {
         F[cells[n].dof[k]] += R[k];
         magnitude[cells[n].dof[k]] += std::abs(R[k]);
@@ -90,12 +92,13 @@ public:
     if (A == located) PetscCall(MatSeqAIJGetArray(own, &values));
     for (std::size_t n = 0; n < cells.size(); ++n) {
       const CellData &c = cells[n];
-      const PointStatus status = Evaluate(n, U, history, step);
+      const Evaluation *evaluation;
+      const PointStatus status = Evaluate(n, U, history, step, true, evaluation);
       if (status != PointStatus::ok) {
         failure = failure_of(c, status);
         break;
       }
-      Element::tangent(kinematics, c.cell, known[n].evaluation, K);
+      Element::tangent(kinematics, c.cell, *evaluation, K);
       if (values && c.first_entry != elsewhere)
         for (int k = 0; k < dofs * dofs; ++k) {
           const PetscInt place = entries[c.first_entry + k];
@@ -160,9 +163,10 @@ public:
                       CellEnergy &energy) override
   {
     for (std::size_t n = 0; n < cells.size(); ++n) {
-      const PointStatus status = Evaluate(n, U, history, step);
+      const Evaluation *evaluation;
+      const PointStatus status = Evaluate(n, U, history, step, false, evaluation);
       if (status != PointStatus::ok) return failure_of(cells[n], status);
-      const CellEnergy part = known[n].evaluation.energy(cells[n].cell);
+      const CellEnergy part = evaluation->energy(cells[n].cell);
       energy.stored += part.stored;
       energy.dissipated += part.dissipated;
     }
@@ -229,6 +233,9 @@ private:
     CellType cell;
   };
 
+  /// An evaluation takes 7 kB at order 1 in space, 2.5 kB for each unknown: as much as all else without the solver.
+  static constexpr std::size_t most_remembered = std::size_t{1} << 28; ///< bytes on a rank
+
   /// The last evaluation of a cell and what it was asked.
   struct Known {
     Vector U;
@@ -237,18 +244,22 @@ private:
   };
 
   /// SNES asks for the residual and then for the tangent at the same U, and an accepted step for the internal variables
-  /// there: the material, which is most of the work, answers once. What it was asked is compared bit by bit.
-  PointStatus Evaluate(std::size_t n, const double *U, const History &history, StepWeights step)
+  /// there: the material, which is most of the work, answers once. What it was asked is compared bit by bit. In meshes
+  /// with too many cells for that it answers each time, without moduli where nobody asks for them.
+  PointStatus Evaluate(std::size_t n, const double *U, const History &history, StepWeights step, bool moduli,
+                       const Evaluation *&evaluation)
   {
     const CellData &c = cells[n];
-    Known &k = known[n];
+    Known &k = known[remembers ? n : 0];
+    evaluation = &k.evaluation;
     const Vector u = gather(c, U);
     const double *before = history.data() + c.history;
+    double *after = history_after.data() + c.history;
+    if (!remembers) return k.evaluation.set(kinematics, c.cell, material[c.body], u, before, step, after, moduli);
     const auto size = static_cast<std::size_t>(Element::points) * material[c.body].history_size();
     double *copy = history_before.data() + c.history;
     if (k.step == step && k.U == u && std::equal(before, before + size, copy)) return PointStatus::ok;
-    const PointStatus status =
-        k.evaluation.set(kinematics, c.cell, material[c.body], u, before, step, history_after.data() + c.history, true);
+    const PointStatus status = k.evaluation.set(kinematics, c.cell, material[c.body], u, before, step, after, true);
     k.step = status == PointStatus::ok ? step : StepWeights{-1};
     k.U = u;
     std::copy(before, before + size, copy);
@@ -280,7 +291,8 @@ private:
   Viscoelastic<double> material[2];
   std::vector<CellData> cells;
   std::size_t history_size = 0;
-  std::vector<Known> known;              ///< by cell
+  bool remembers = true;                 ///< has room for what is known of every cell
+  std::vector<Known> known;              ///< by cell, or one for all
   History history_before, history_after; ///< of the evaluations in `known`
   std::vector<PetscInt> entries;         ///< places in the values of OwnBlock, -1 where prescribed
   Mat located = nullptr;                 ///< the matrix that `entries` is about

@@ -314,16 +314,12 @@ PetscErrorCode Condensation::BuildLeft(const ContactUnknowns &unknowns, IS displ
 /// S, in its old place where the pattern has not changed.
 PetscErrorCode Condensation::BuildReduced(const ContactUnknowns &unknowns, bool anew)
 {
+  MatHandle AP;
+  Mat reduced = S;
   PetscInt first;
   PetscFunctionBegin;
-  if (anew) {
-    PetscCall(MatMatMult(A, P, MAT_INITIAL_MATRIX, PETSC_DEFAULT, AP.put()));
-    PetscCall(MatMatMult(L, AP, MAT_INITIAL_MATRIX, PETSC_DEFAULT, S.put()));
-  } else {
-    Mat product = AP, reduced = S;
-    PetscCall(MatMatMult(A, P, MAT_REUSE_MATRIX, PETSC_DEFAULT, &product));
-    PetscCall(MatMatMult(L, AP, MAT_REUSE_MATRIX, PETSC_DEFAULT, &reduced));
-  }
+  PetscCall(MatMatMult(A, P, MAT_INITIAL_MATRIX, PETSC_DEFAULT, AP.put()));
+  PetscCall(MatMatMult(L, AP, anew ? MAT_INITIAL_MATRIX : MAT_REUSE_MATRIX, PETSC_DEFAULT, anew ? S.put() : &reduced));
   PetscCall(MatGetOwnershipRange(S, &first, nullptr));
   for (const NodeBlocks &node : nodes) {
     if (node.slave < 0) continue;

@@ -80,7 +80,7 @@ private:
   PetscErrorCode CutInterface();
   static void Classify(NodeBlocks &node);
 
-  MatHandle A, P, L, AP, S;
+  MatHandle A, P, L, S;
   PetscObjectState pattern = 0;    ///< of A
   MatHandle equations, prescribed; ///< of A: of the interface's equations, of the slave displacements
   VecHandle held, residual, on_interface, on_slave;

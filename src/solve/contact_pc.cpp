@@ -45,6 +45,28 @@ PetscErrorCode CreateInner(PC pc)
   PetscFunctionReturn(0);
 }
 
+/// PETSc smooths with two Chebyshev steps. Nearly incompressible gels gain by more: with K/G = 144 three take 26 outer
+/// iterations a Newton iteration where two take 36, in the same time and with fewer vectors.
+PetscErrorCode SmoothMore(PC pc)
+{
+  constexpr PetscInt chebyshev_steps = 3;
+  PC method;
+  PetscBool multigrid;
+  PetscInt levels;
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(data_of(pc).inner, &method));
+  PetscCall(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(method), PCGAMG, &multigrid));
+  if (!multigrid) PetscFunctionReturn(0);
+  PetscCall(PCMGGetLevels(method, &levels));
+  for (PetscInt level = 1; level < levels; ++level) {
+    KSP smoother;
+    PetscCall(PCMGGetSmoother(method, level, &smoother));
+    PetscCall(KSPSetTolerances(smoother, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, chebyshev_steps));
+    PetscCall(KSPSetFromOptions(smoother));
+  }
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode SetUp(PC pc)
 {
   ContactPc &data = data_of(pc);
@@ -65,6 +87,7 @@ PetscErrorCode SetUp(PC pc)
   }
   PetscCall(KSPSetOperators(data.inner, S, S));
   PetscCall(KSPSetUp(data.inner));
+  if (anew) PetscCall(SmoothMore(pc));
   PetscFunctionReturn(0);
 }
 
