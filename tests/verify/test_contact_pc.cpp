@@ -1,0 +1,110 @@
+/// The preconditioner `contact`: what it leaves out of the condensed system costs a Krylov method two or three
+/// iterations when the rest is solved exactly, in every contact state; and it changes no result.
+#include "probe.hpp"
+#include "solver_options.hpp"
+
+namespace tribogel::test
+{
+
+namespace
+{
+
+Scene pressed(PolynomialFriction<double> friction, std::vector<double> rates)
+{
+  Scene scene = paper_scene(4, 1);
+  scene.model = Model::solid;
+  scene.plate_contact = false;
+  scene.mesh.grading = 1;
+  scene.friction = std::move(friction);
+  scene.top.material = scene.bottom.material = hyperelastic_gel();
+  scene.schedule = schedule_from_rates({1, 2}, {0.4, 0.4}, std::move(rates));
+  return scene;
+}
+
+OptionList with_contact_pc(const char *inner)
+{
+  return {{"-pc_type", "contact"},       {"-ksp_type", "gmres"}, {"-ksp_pc_side", "right"},
+          {"-condensed_pc_type", inner}, {"-ksp_rtol", "1e-8"},  {"-ksp_gmres_restart", "200"},
+          {"-ts_adapt_type", "none"},    {"-ts_dt", "0.5"},      {"-snes_rtol", "1e-9"}};
+}
+
+OptionList direct()
+{
+  return {{"-ts_adapt_type", "none"}, {"-ts_dt", "0.5"}, {"-snes_rtol", "1e-9"}};
+}
+
+struct Outcome {
+  double N, T;
+  int newton, linear, slipping, sticking;
+};
+
+Outcome outcome(const Scene &scene, const OptionList &options)
+{
+  const SolverOptions solver(options);
+  Problem problem;
+  Recorder recorder("");
+  run(scene, problem, recorder);
+  Outcome sum{recorder.rows.back().measurement.normal_force, recorder.rows.back().measurement.torque, 0, 0, 0, 0};
+  sum.newton = problem.counts.newton_iterations;
+  sum.linear = problem.counts.linear_iterations;
+  for (ContactStatus status : problem.contact->lower_face().statuses()) {
+    sum.slipping += status == ContactStatus::slip;
+    sum.sticking += status == ContactStatus::stick;
+  }
+  return sum;
+}
+
+} // namespace
+
+/// Without friction tangents are free, with much of it all is held; Coulomb's law turns in between has both, and open
+/// nodes at the rim.
+TEST(contact_pc, LeavesLittleToTheKrylovMethod)
+{
+  const auto check = [](const char *name, const Scene &scene) {
+    const Outcome exact = outcome(scene, direct()), condensed = outcome(scene, with_contact_pc("lu"));
+    std::printf("%-12s N %.6f N, T %.6f N mm; %d linear in %d Newton iterations; %d slip, %d stick\n", name, exact.N,
+                exact.T, condensed.linear, condensed.newton, condensed.slipping, condensed.sticking);
+    EXPECT_NEAR(condensed.N, exact.N, 1e-7 * exact.N) << name;
+    EXPECT_NEAR(condensed.T, exact.T, 1e-7 * exact.N * scene.top.radius) << name;
+    EXPECT_LE(condensed.linear, 4 * condensed.newton) << name;
+    return condensed;
+  };
+  check("frictionless", pressed({{0.0}, {1}}, {0, 0.1}));
+  check("viscous", pressed({{0.05}, {1}}, {0, 0.1}));
+  const Outcome held = check("sticking", pressed({{2.0}, {0}}, {0, 0.01}));
+  EXPECT_GT(held.sticking, 0);
+  const Outcome mixed = check("Coulomb", pressed({{0.02}, {0}}, {0, 0.02}));
+  EXPECT_GT(mixed.sticking, 0);
+  EXPECT_GT(mixed.slipping, 0);
+}
+
+/// Walls at the plates have multipliers with one force direction.
+TEST(contact_pc, TakesPlatesToo)
+{
+  Scene scene = pressed({{0.05}, {1}}, {0, 0.1});
+  scene.plate_contact = true;
+  scene.schedule = schedule_from_rates({1, 2}, {0.8, 0.8}, {0, 0.1});
+  const Outcome exact = outcome(scene, direct()), condensed = outcome(scene, with_contact_pc("lu"));
+  EXPECT_NEAR(condensed.N, exact.N, 1e-7 * exact.N);
+  EXPECT_LE(condensed.linear, 4 * condensed.newton);
+}
+
+/// With a multigrid inside; K/G = 144.
+TEST(contact_pc, MultigridGivesTheSameForces)
+{
+  const Scene scene = pressed({{0.02}, {0}}, {0, 0.02});
+  const Outcome exact = outcome(scene, direct());
+  for (const char *inner : {"gamg", "hypre"}) {
+    OptionList options = with_contact_pc(inner);
+    options.emplace_back("-snes_ksp_ew", "");
+    options.emplace_back("-snes_ksp_ew_rtol0", "0.1");
+    options.emplace_back("-snes_ksp_ew_rtolmax", "0.1");
+    const Outcome found = outcome(scene, options);
+    std::printf("%s: %d linear in %d Newton iterations\n", inner, found.linear, found.newton);
+    EXPECT_NEAR(found.N, exact.N, 1e-7 * exact.N) << inner;
+    EXPECT_NEAR(found.T, exact.T, 1e-7 * exact.N * scene.top.radius) << inner;
+    EXPECT_LE(found.linear, 60 * found.newton) << inner;
+  }
+}
+
+} // namespace tribogel::test
