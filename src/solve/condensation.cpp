@@ -173,16 +173,16 @@ PetscErrorCode Condensation::ReadRows(int kind, const ColumnSets &sets, NodeBloc
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Condensation::ReadNodes(const ContactUnknowns &unknowns)
+PetscErrorCode Condensation::ReadNodes()
 {
   ColumnSets sets;
   PetscFunctionBegin;
-  PetscCall(GatherFirsts(comm_of(A), unknowns.slave, sets.slaves));
-  PetscCall(GatherFirsts(comm_of(A), unknowns.multiplier, sets.multipliers));
-  nodes.assign(unknowns.multiplier.size(), {});
+  PetscCall(GatherFirsts(comm_of(A), unknowns->slave, sets.slaves));
+  PetscCall(GatherFirsts(comm_of(A), unknowns->multiplier, sets.multipliers));
+  nodes.assign(unknowns->multiplier.size(), {});
   for (std::size_t a = 0; a < nodes.size(); ++a) {
-    nodes[a].slave = unknowns.slave[a];
-    nodes[a].multiplier = unknowns.multiplier[a];
+    nodes[a].slave = unknowns->slave[a];
+    nodes[a].multiplier = unknowns->multiplier[a];
     nodes[a].master = met.masters[a];
     nodes[a].B.setZero(3, static_cast<Eigen::Index>(met.masters[a].size()));
     for (int kind = nodes[a].slave < 0 ? 1 : 0; kind < 2; ++kind) PetscCall(ReadRows(kind, sets, nodes[a]));
@@ -193,7 +193,7 @@ PetscErrorCode Condensation::ReadNodes(const ContactUnknowns &unknowns)
 }
 
 /// P: of all unknowns, by the displacements.
-PetscErrorCode Condensation::BuildRight(const ContactUnknowns &unknowns, IS displacements)
+PetscErrorCode Condensation::BuildRight(IS displacements)
 {
   MatHandle square;
   IsHandle all;
@@ -201,12 +201,12 @@ PetscErrorCode Condensation::BuildRight(const ContactUnknowns &unknowns, IS disp
   PetscFunctionBegin;
   PetscCall(MatGetOwnershipRange(A, &first, &last));
   std::vector<PetscInt> per_row(last - first, 0);
-  for (PetscInt row : unknowns.displacement) per_row[row - first] = 1;
+  for (PetscInt row : unknowns->displacement) per_row[row - first] = 1;
   for (const NodeBlocks &node : nodes)
     for (int i = 0; i < 3 && node.slave >= 0; ++i)
       per_row[node.slave + i - first] = 3 + static_cast<PetscInt>(node.master.size());
   PetscCall(CreateLike(A, per_row, square));
-  for (PetscInt row : unknowns.displacement)
+  for (PetscInt row : unknowns->displacement)
     if (per_row[row - first] == 1) PetscCall(MatSetValue(square, row, row, 1, INSERT_VALUES));
   for (const NodeBlocks &node : nodes) {
     if (node.slave < 0) continue;
@@ -268,7 +268,7 @@ PetscErrorCode Condensation::Remember(Mat M, PetscInt row, std::vector<PetscInt>
 }
 
 /// L: equations of the displacements, by all equations.
-PetscErrorCode Condensation::BuildLeft(const ContactUnknowns &unknowns, IS displacements)
+PetscErrorCode Condensation::BuildLeft(IS displacements)
 {
   MatHandle square, eliminated;
   IsHandle all;
@@ -281,15 +281,15 @@ PetscErrorCode Condensation::BuildLeft(const ContactUnknowns &unknowns, IS displ
   std::vector<bool> of_slave(last - first, false);
   for (const NodeBlocks &node : nodes)
     for (int i = 0; i < 3 && node.slave >= 0; ++i) of_slave[node.slave + i - first] = true;
-  for (std::size_t r = 0; r < unknowns.displacement.size(); ++r) {
-    const PetscInt row = unknowns.displacement[r] - first;
+  for (std::size_t r = 0; r < unknowns->displacement.size(); ++r) {
+    const PetscInt row = unknowns->displacement[r] - first;
     per_row[row] = of_slave[row] ? 6 : 1;
     if (!of_slave[row]) PetscCall(Remember(eliminated, reduced + static_cast<PetscInt>(r), met.slaves[r]));
     if (!of_slave[row]) per_row[row] += static_cast<PetscInt>(met.slaves[r].size());
   }
   PetscCall(CreateLike(A, per_row, square));
-  for (std::size_t r = 0; r < unknowns.displacement.size(); ++r) {
-    const PetscInt row = unknowns.displacement[r], *column;
+  for (std::size_t r = 0; r < unknowns->displacement.size(); ++r) {
+    const PetscInt row = unknowns->displacement[r], *column;
     const PetscScalar *value;
     PetscInt size;
     if (of_slave[row - first]) continue;
@@ -312,10 +312,11 @@ PetscErrorCode Condensation::BuildLeft(const ContactUnknowns &unknowns, IS displ
 }
 
 /// S, in its old place where the pattern has not changed.
-PetscErrorCode Condensation::BuildReduced(const ContactUnknowns &unknowns, bool anew)
+PetscErrorCode Condensation::Reduce()
 {
   MatHandle AP;
   Mat reduced = S;
+  const bool anew = !reduced;
   PetscInt first;
   PetscFunctionBegin;
   PetscCall(MatMatMult(A, P, MAT_INITIAL_MATRIX, PETSC_DEFAULT, AP.put()));
@@ -323,15 +324,15 @@ PetscErrorCode Condensation::BuildReduced(const ContactUnknowns &unknowns, bool 
   PetscCall(MatGetOwnershipRange(S, &first, nullptr));
   for (const NodeBlocks &node : nodes) {
     if (node.slave < 0) continue;
-    const auto place = std::lower_bound(unknowns.displacement.begin(), unknowns.displacement.end(), node.slave);
-    const auto row = first + static_cast<PetscInt>(place - unknowns.displacement.begin());
+    const auto place = std::lower_bound(unknowns->displacement.begin(), unknowns->displacement.end(), node.slave);
+    const auto row = first + static_cast<PetscInt>(place - unknowns->displacement.begin());
     PetscCall(SetBlock(S, row, row, node.idle, ADD_VALUES));
   }
   PetscCall(Assemble(S));
-  if (anew && unknowns.whole_nodes) {
+  if (anew && unknowns->whole_nodes) {
     MatNullSpace rigid;
     PetscCall(MatSetBlockSize(S, 3));
-    PetscCall(MatNullSpaceCreateRigidBody(unknowns.place, &rigid));
+    PetscCall(MatNullSpaceCreateRigidBody(unknowns->place, &rigid));
     PetscCall(MatSetNearNullSpace(S, rigid));
     PetscCall(MatNullSpaceDestroy(&rigid));
   }
@@ -363,26 +364,27 @@ PetscErrorCode Condensation::CutInterface()
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Condensation::SetUp(Mat given, const ContactUnknowns &unknowns, bool &anew)
+PetscErrorCode Condensation::Read(Mat given, const std::shared_ptr<const ContactUnknowns> &list, bool &anew)
 {
   IsHandle displacements;
   PetscObjectState pattern_now;
   PetscFunctionBegin;
+  unknowns = list;
   PetscCall(MatGetNonzeroState(given, &pattern_now));
   if (given != static_cast<Mat>(A) || pattern_now != pattern) met = {};
   pattern = pattern_now;
-  met.masters.resize(unknowns.multiplier.size());
-  met.slaves.resize(unknowns.displacement.size());
+  met.masters.resize(unknowns->multiplier.size());
+  met.slaves.resize(unknowns->displacement.size());
   met.grown = !static_cast<Mat>(S) || given != static_cast<Mat>(A);
   PetscCall(PetscObjectReference(reinterpret_cast<PetscObject>(given)));
   *A.put() = given;
-  PetscCall(ReadNodes(unknowns));
-  PetscCall(CreateIs(comm_of(A), unknowns.displacement, displacements));
-  PetscCall(BuildRight(unknowns, displacements));
-  PetscCall(BuildLeft(unknowns, displacements));
+  PetscCall(ReadNodes());
+  PetscCall(CreateIs(comm_of(A), unknowns->displacement, displacements));
+  PetscCall(BuildRight(displacements));
+  PetscCall(BuildLeft(displacements));
   PetscCallMPI(MPI_Allreduce(&met.grown, &anew, 1, MPI_CXX_BOOL, MPI_LOR, comm_of(A)));
-  PetscCall(BuildReduced(unknowns, anew));
   PetscCall(CutInterface());
+  if (anew) S.reset();
   PetscFunctionReturn(0);
 }
 

@@ -23,6 +23,7 @@
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <vector>
 
 namespace tribogel
@@ -39,8 +40,11 @@ struct ContactUnknowns {
 class Condensation
 {
 public:
-  /// `anew`: reduced() is another matrix than before; else the same one with new values. Collective.
-  PetscErrorCode SetUp(Mat A, const ContactUnknowns &unknowns, bool &anew);
+  /// Whether reduced() will be another matrix than before (`anew`), or the same one with new values. Collective.
+  PetscErrorCode Read(Mat A, const std::shared_ptr<const ContactUnknowns> &unknowns, bool &anew);
+
+  /// Computes reduced(); where it is another matrix than before, whoever holds the old one lets go first. Collective.
+  PetscErrorCode Reduce();
 
   /// Right-hand side of S y = g for A x = f, and x from y. Collective.
   PetscErrorCode Restrict(Vec f, Vec g);
@@ -71,15 +75,15 @@ private:
   };
 
   PetscErrorCode ReadRows(int kind, const ColumnSets &sets, NodeBlocks &node);
-  PetscErrorCode ReadNodes(const ContactUnknowns &unknowns);
-  PetscErrorCode BuildRight(const ContactUnknowns &unknowns, IS displacements);
+  PetscErrorCode ReadNodes();
+  PetscErrorCode BuildRight(IS displacements);
   PetscErrorCode Eliminate(IS displacements, MatHandle &eliminated);
   PetscErrorCode Remember(Mat M, PetscInt row, std::vector<PetscInt> &met_there);
-  PetscErrorCode BuildLeft(const ContactUnknowns &unknowns, IS displacements);
-  PetscErrorCode BuildReduced(const ContactUnknowns &unknowns, bool anew);
+  PetscErrorCode BuildLeft(IS displacements);
   PetscErrorCode CutInterface();
   static void Classify(NodeBlocks &node);
 
+  std::shared_ptr<const ContactUnknowns> unknowns;
   MatHandle A, P, L, S;
   PetscObjectState pattern = 0;    ///< of A
   MatHandle equations, prescribed; ///< of A: of the interface's equations, of the slave displacements

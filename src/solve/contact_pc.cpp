@@ -79,7 +79,9 @@ PetscErrorCode SetUp(PC pc)
   PetscCheck(container, PetscObjectComm(reinterpret_cast<PetscObject>(pc)), PETSC_ERR_USER_INPUT,
              "-pc_type contact: only for -model solid");
   PetscCall(PetscContainerGetPointer(container, &shared));
-  PetscCall(data.condensation.SetUp(pc->pmat, **static_cast<Shared *>(shared), anew));
+  PetscCall(data.condensation.Read(pc->pmat, *static_cast<Shared *>(shared), anew));
+  if (anew) data.inner.reset(); // two multigrids would not fit beside each other where one does
+  PetscCall(data.condensation.Reduce());
   const Mat S = data.condensation.reduced();
   if (anew) {
     PetscCall(CreateInner(pc));
