@@ -1,5 +1,7 @@
 #include "contact/gel_contact.hpp"
 
+#include "contact/own_rows.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -261,13 +263,24 @@ PetscErrorCode GelContact::AddJacobian(const PlateFrames &frames, const double *
 {
   ContactState<double> state;
   PetscErrorCode worst = 0;
+  OwnRows own;
+  std::vector<PetscInt> rows, columns;
   PetscFunctionBeginUser;
   PetscCall(Gather(frames, U, Udot, shift, state));
   PetscCall(Evaluate(state, true, failure));
   if (!failure.empty()) PetscFunctionReturn(0);
-  const auto add = [&](const ContactBlock &block) { worst = std::max(worst, Add(block, A)); };
+  PetscCall(own.Open(A));
+  const auto add = [&](const ContactBlock &block) {
+    if (own.is_open()) {
+      Indices(block.rows, rows);
+      Indices(block.columns, columns);
+      worst = std::max(worst, own.Add(rows, columns, block.values.data()));
+    } else
+      worst = std::max(worst, Add(block, A));
+  };
   model->jacobian(first, last, add);
   PetscCall(worst);
+  PetscCall(own.Close());
   PetscFunctionReturn(0);
 }
 

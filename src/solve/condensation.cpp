@@ -156,10 +156,11 @@ PetscErrorCode Condensation::ReadRows(int kind, const ColumnSets &sets, NodeBloc
         (kind == 0 ? node.K : node.H)(i, to_slave) = value[k];
       else if (to_multiplier >= 0 && to_multiplier < 3)
         (kind == 0 ? node.D : node.Z)(i, to_multiplier) = value[k];
-      else if (kind == 1 && !among(sets.slaves, column[k]) && !among(sets.multipliers, column[k])) {
+      else if (kind == 1 && value[k] != 0 && !among(sets.slaves, column[k]) && !among(sets.multipliers, column[k])) {
         auto place = std::find(node.master.begin(), node.master.end(), column[k]);
         if (place == node.master.end()) {
           node.master.push_back(column[k]);
+          met.grown = true;
           node.B.conservativeResize(3, node.B.cols() + 1);
           node.B.rightCols<1>().setZero();
           place = std::prev(node.master.end());
@@ -182,7 +183,10 @@ PetscErrorCode Condensation::ReadNodes(const ContactUnknowns &unknowns)
   for (std::size_t a = 0; a < nodes.size(); ++a) {
     nodes[a].slave = unknowns.slave[a];
     nodes[a].multiplier = unknowns.multiplier[a];
+    nodes[a].master = met.masters[a];
+    nodes[a].B.setZero(3, static_cast<Eigen::Index>(met.masters[a].size()));
     for (int kind = nodes[a].slave < 0 ? 1 : 0; kind < 2; ++kind) PetscCall(ReadRows(kind, sets, nodes[a]));
+    met.masters[a] = nodes[a].master;
     Classify(nodes[a]);
   }
   PetscFunctionReturn(0);
@@ -218,73 +222,117 @@ PetscErrorCode Condensation::BuildRight(const ContactUnknowns &unknowns, IS disp
   PetscFunctionReturn(0);
 }
 
-/// L: equations of the displacements, by all equations.
-PetscErrorCode Condensation::BuildLeft(const ContactUnknowns &unknowns, IS displacements)
+/// -G D^-1: what displacements' equations take of the slave's forces; n rows as displacements, columns as A.
+PetscErrorCode Condensation::Eliminate(IS displacements, MatHandle &eliminated)
 {
-  MatHandle own, G, inverse, eliminated;
-  VecHandle keep;
+  MatHandle square, inverse, G;
   IsHandle all, multipliers;
-  PetscInt first, last, reduced_first;
+  PetscInt first, last;
   PetscFunctionBegin;
   PetscCall(MatGetOwnershipRange(A, &first, &last));
-  std::vector<PetscInt> per_row(last - first, 0), inverse_rows(last - first, 0);
-  for (PetscInt row : unknowns.displacement) per_row[row - first] = 1;
+  std::vector<PetscInt> per_row(last - first, 0), conditions;
   for (const NodeBlocks &node : nodes)
-    for (int i = 0; i < 3 && node.slave >= 0; ++i) {
-      per_row[node.slave + i - first] = 6;
-      inverse_rows[node.multiplier + i - first] = 3;
+    for (int i = 0; i < 3; ++i) {
+      conditions.push_back(node.multiplier + i);
+      if (node.slave >= 0) per_row[node.multiplier + i - first] = 3;
     }
-  PetscCall(CreateLike(A, per_row, own));
-  PetscCall(CreateLike(A, inverse_rows, inverse));
-  for (PetscInt row : unknowns.displacement)
-    if (per_row[row - first] == 1) PetscCall(MatSetValue(own, row, row, 1, INSERT_VALUES));
+  PetscCall(CreateLike(A, per_row, square));
   for (const NodeBlocks &node : nodes) {
-    if (node.slave < 0) continue;
     const Matrix3 minus = -node.D_inverse;
-    PetscCall(SetBlock(own, node.slave, node.slave, node.force, INSERT_VALUES));
-    PetscCall(SetBlock(own, node.slave, node.multiplier, node.condition, INSERT_VALUES));
-    PetscCall(SetBlock(inverse, node.multiplier, node.slave, minus, INSERT_VALUES));
+    if (node.slave >= 0) PetscCall(SetBlock(square, node.multiplier, node.slave, minus, INSERT_VALUES));
   }
-  PetscCall(Assemble(own));
-  PetscCall(Assemble(inverse));
-
+  PetscCall(Assemble(square));
   PetscCall(ISCreateStride(comm_of(A), last - first, first, 1, all.put()));
-  PetscCall(MatCreateSubMatrix(own, displacements, all, MAT_INITIAL_MATRIX, L.put()));
-  std::vector<PetscInt> conditions;
-  for (const NodeBlocks &node : nodes)
-    for (int i = 0; i < 3; ++i) conditions.push_back(node.multiplier + i);
   PetscCall(CreateIs(comm_of(A), conditions, multipliers));
-  MatHandle inverse_of;
   PetscCall(MatCreateSubMatrix(A, displacements, multipliers, MAT_INITIAL_MATRIX, G.put()));
-  PetscCall(MatCreateSubMatrix(inverse, multipliers, all, MAT_INITIAL_MATRIX, inverse_of.put()));
-  PetscCall(MatCreateVecs(L, nullptr, keep.put()));
-  PetscCall(VecSet(keep, 1));
-  PetscCall(VecGetOwnershipRange(keep, &reduced_first, nullptr));
-  reduced_row.clear();
-  for (const NodeBlocks &node : nodes) {
-    const auto place = std::lower_bound(unknowns.displacement.begin(), unknowns.displacement.end(), node.slave);
-    const auto row = reduced_first + static_cast<PetscInt>(place - unknowns.displacement.begin());
-    reduced_row.push_back(node.slave < 0 ? -1 : row);
-    for (int i = 0; i < 3 && node.slave >= 0; ++i) PetscCall(VecSetValue(keep, row + i, 0, INSERT_VALUES));
-  }
-  PetscCall(VecAssemblyBegin(keep));
-  PetscCall(VecAssemblyEnd(keep));
-  PetscCall(MatDiagonalScale(G, keep, nullptr));
-  PetscCall(MatMatMult(G, inverse_of, MAT_INITIAL_MATRIX, PETSC_DEFAULT, eliminated.put()));
-  PetscCall(MatAXPY(L, 1, eliminated, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatCreateSubMatrix(square, multipliers, all, MAT_INITIAL_MATRIX, inverse.put()));
+  PetscCall(MatMatMult(G, inverse, MAT_INITIAL_MATRIX, PETSC_DEFAULT, eliminated.put()));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Condensation::BuildReduced(const ContactUnknowns &unknowns)
+/// Adds the columns of M's entries in this row to `met`, and says so.
+PetscErrorCode Condensation::Remember(Mat M, PetscInt row, std::vector<PetscInt> &met_there)
 {
-  MatHandle AP;
+  const PetscInt *column;
+  const PetscScalar *value;
+  PetscInt size;
   PetscFunctionBegin;
-  PetscCall(MatMatMult(A, P, MAT_INITIAL_MATRIX, PETSC_DEFAULT, AP.put()));
-  PetscCall(MatMatMult(L, AP, MAT_INITIAL_MATRIX, PETSC_DEFAULT, S.put()));
-  for (std::size_t a = 0; a < nodes.size(); ++a)
-    if (reduced_row[a] >= 0) PetscCall(SetBlock(S, reduced_row[a], reduced_row[a], nodes[a].idle, ADD_VALUES));
+  PetscCall(MatGetRow(M, row, &size, &column, &value));
+  for (PetscInt k = 0; k < size; ++k) {
+    if (value[k] == 0 || std::find(met_there.begin(), met_there.end(), column[k]) != met_there.end()) continue;
+    met_there.push_back(column[k]);
+    met.grown = true;
+  }
+  PetscCall(MatRestoreRow(M, row, &size, &column, &value));
+  PetscFunctionReturn(0);
+}
+
+/// L: equations of the displacements, by all equations.
+PetscErrorCode Condensation::BuildLeft(const ContactUnknowns &unknowns, IS displacements)
+{
+  MatHandle square, eliminated;
+  IsHandle all;
+  PetscInt first, last, reduced;
+  PetscFunctionBegin;
+  PetscCall(Eliminate(displacements, eliminated));
+  PetscCall(MatGetOwnershipRange(A, &first, &last));
+  PetscCall(MatGetOwnershipRange(eliminated, &reduced, nullptr));
+  std::vector<PetscInt> per_row(last - first, 0);
+  std::vector<bool> of_slave(last - first, false);
+  for (const NodeBlocks &node : nodes)
+    for (int i = 0; i < 3 && node.slave >= 0; ++i) of_slave[node.slave + i - first] = true;
+  for (std::size_t r = 0; r < unknowns.displacement.size(); ++r) {
+    const PetscInt row = unknowns.displacement[r] - first;
+    per_row[row] = of_slave[row] ? 6 : 1;
+    if (!of_slave[row]) PetscCall(Remember(eliminated, reduced + static_cast<PetscInt>(r), met.slaves[r]));
+    if (!of_slave[row]) per_row[row] += static_cast<PetscInt>(met.slaves[r].size());
+  }
+  PetscCall(CreateLike(A, per_row, square));
+  for (std::size_t r = 0; r < unknowns.displacement.size(); ++r) {
+    const PetscInt row = unknowns.displacement[r], *column;
+    const PetscScalar *value;
+    PetscInt size;
+    if (of_slave[row - first]) continue;
+    PetscCall(MatSetValue(square, row, row, 1, INSERT_VALUES));
+    for (PetscInt k : met.slaves[r]) PetscCall(MatSetValue(square, row, k, 0, INSERT_VALUES));
+    PetscCall(MatGetRow(eliminated, reduced + static_cast<PetscInt>(r), &size, &column, &value));
+    for (PetscInt k = 0; k < size; ++k)
+      if (value[k] != 0) PetscCall(MatSetValue(square, row, column[k], value[k], INSERT_VALUES));
+    PetscCall(MatRestoreRow(eliminated, reduced + static_cast<PetscInt>(r), &size, &column, &value));
+  }
+  for (const NodeBlocks &node : nodes) {
+    if (node.slave < 0) continue;
+    PetscCall(SetBlock(square, node.slave, node.slave, node.force, INSERT_VALUES));
+    PetscCall(SetBlock(square, node.slave, node.multiplier, node.condition, INSERT_VALUES));
+  }
+  PetscCall(Assemble(square));
+  PetscCall(ISCreateStride(comm_of(A), last - first, first, 1, all.put()));
+  PetscCall(MatCreateSubMatrix(square, displacements, all, MAT_INITIAL_MATRIX, L.put()));
+  PetscFunctionReturn(0);
+}
+
+/// S, in its old place where the pattern has not changed.
+PetscErrorCode Condensation::BuildReduced(const ContactUnknowns &unknowns, bool anew)
+{
+  PetscInt first;
+  PetscFunctionBegin;
+  if (anew) {
+    PetscCall(MatMatMult(A, P, MAT_INITIAL_MATRIX, PETSC_DEFAULT, AP.put()));
+    PetscCall(MatMatMult(L, AP, MAT_INITIAL_MATRIX, PETSC_DEFAULT, S.put()));
+  } else {
+    Mat product = AP, reduced = S;
+    PetscCall(MatMatMult(A, P, MAT_REUSE_MATRIX, PETSC_DEFAULT, &product));
+    PetscCall(MatMatMult(L, AP, MAT_REUSE_MATRIX, PETSC_DEFAULT, &reduced));
+  }
+  PetscCall(MatGetOwnershipRange(S, &first, nullptr));
+  for (const NodeBlocks &node : nodes) {
+    if (node.slave < 0) continue;
+    const auto place = std::lower_bound(unknowns.displacement.begin(), unknowns.displacement.end(), node.slave);
+    const auto row = first + static_cast<PetscInt>(place - unknowns.displacement.begin());
+    PetscCall(SetBlock(S, row, row, node.idle, ADD_VALUES));
+  }
   PetscCall(Assemble(S));
-  if (unknowns.whole_nodes) {
+  if (anew && unknowns.whole_nodes) {
     MatNullSpace rigid;
     PetscCall(MatSetBlockSize(S, 3));
     PetscCall(MatNullSpaceCreateRigidBody(unknowns.place, &rigid));
@@ -294,20 +342,13 @@ PetscErrorCode Condensation::BuildReduced(const ContactUnknowns &unknowns)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Condensation::SetUp(Mat given, const ContactUnknowns &unknowns)
+/// The parts of A that couple the slave's unknowns with all others.
+PetscErrorCode Condensation::CutInterface()
 {
-  IsHandle displacements, all, interface, slaves;
+  IsHandle all, interface, slaves;
   std::vector<PetscInt> interface_rows, slave_columns;
   PetscInt first, last;
   PetscFunctionBegin;
-  PetscCall(PetscObjectReference(reinterpret_cast<PetscObject>(given)));
-  *A.put() = given;
-  PetscCall(ReadNodes(unknowns));
-  PetscCall(CreateIs(comm_of(A), unknowns.displacement, displacements));
-  PetscCall(BuildRight(unknowns, displacements));
-  PetscCall(BuildLeft(unknowns, displacements));
-  PetscCall(BuildReduced(unknowns));
-
   for (const NodeBlocks &node : nodes)
     for (int i = 0; i < 6; ++i) {
       if (i < 3 && node.slave < 0) continue;
@@ -323,6 +364,29 @@ PetscErrorCode Condensation::SetUp(Mat given, const ContactUnknowns &unknowns)
   PetscCall(MatCreateVecs(equations, nullptr, on_interface.put()));
   PetscCall(MatCreateVecs(prescribed, on_slave.put(), residual.put()));
   PetscCall(VecDuplicate(residual, held.put()));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Condensation::SetUp(Mat given, const ContactUnknowns &unknowns, bool &anew)
+{
+  IsHandle displacements;
+  PetscObjectState pattern_now;
+  PetscFunctionBegin;
+  PetscCall(MatGetNonzeroState(given, &pattern_now));
+  if (given != static_cast<Mat>(A) || pattern_now != pattern) met = {};
+  pattern = pattern_now;
+  met.masters.resize(unknowns.multiplier.size());
+  met.slaves.resize(unknowns.displacement.size());
+  met.grown = !static_cast<Mat>(S) || given != static_cast<Mat>(A);
+  PetscCall(PetscObjectReference(reinterpret_cast<PetscObject>(given)));
+  *A.put() = given;
+  PetscCall(ReadNodes(unknowns));
+  PetscCall(CreateIs(comm_of(A), unknowns.displacement, displacements));
+  PetscCall(BuildRight(unknowns, displacements));
+  PetscCall(BuildLeft(unknowns, displacements));
+  PetscCallMPI(MPI_Allreduce(&met.grown, &anew, 1, MPI_CXX_BOOL, MPI_LOR, comm_of(A)));
+  PetscCall(BuildReduced(unknowns, anew));
+  PetscCall(CutInterface());
   PetscFunctionReturn(0);
 }
 

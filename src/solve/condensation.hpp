@@ -39,8 +39,8 @@ struct ContactUnknowns {
 class Condensation
 {
 public:
-  /// Collective.
-  PetscErrorCode SetUp(Mat A, const ContactUnknowns &unknowns);
+  /// `anew`: reduced() is another matrix than before; else the same one with new values. Collective.
+  PetscErrorCode SetUp(Mat A, const ContactUnknowns &unknowns, bool &anew);
 
   /// Right-hand side of S y = g for A x = f, and x from y. Collective.
   PetscErrorCode Restrict(Vec f, Vec g);
@@ -73,15 +73,25 @@ private:
   PetscErrorCode ReadRows(int kind, const ColumnSets &sets, NodeBlocks &node);
   PetscErrorCode ReadNodes(const ContactUnknowns &unknowns);
   PetscErrorCode BuildRight(const ContactUnknowns &unknowns, IS displacements);
+  PetscErrorCode Eliminate(IS displacements, MatHandle &eliminated);
+  PetscErrorCode Remember(Mat M, PetscInt row, std::vector<PetscInt> &met_there);
   PetscErrorCode BuildLeft(const ContactUnknowns &unknowns, IS displacements);
-  PetscErrorCode BuildReduced(const ContactUnknowns &unknowns);
+  PetscErrorCode BuildReduced(const ContactUnknowns &unknowns, bool anew);
+  PetscErrorCode CutInterface();
   static void Classify(NodeBlocks &node);
 
-  MatHandle A, P, L, S;
+  MatHandle A, P, L, AP, S;
+  PetscObjectState pattern = 0;    ///< of A
   MatHandle equations, prescribed; ///< of A: of the interface's equations, of the slave displacements
   VecHandle held, residual, on_interface, on_slave;
   std::vector<NodeBlocks> nodes;
-  std::vector<PetscInt> reduced_row; ///< of each node's slave displacement in S, -1 if prescribed
+
+  /// Nodes that have met since A has its pattern. L and P keep their entries, so that the pattern of S, and what inner
+  /// solvers have derived from it, is that of the iteration before unless new ones meet.
+  struct {
+    std::vector<std::vector<PetscInt>> masters, slaves; ///< columns: by slave node; by displacement
+    bool grown = false;
+  } met;
 };
 
 } // namespace tribogel

@@ -23,21 +23,47 @@ ContactPc &data_of(PC pc)
   return *static_cast<ContactPc *>(pc->data);
 }
 
+/// A new inner solver for a new matrix: PETSc 3.18's multigrid, once set up, takes no coarse levels of other sizes, not
+/// even after a reset.
+PetscErrorCode CreateInner(PC pc)
+{
+  const KspHandle &inner = data_of(pc).inner;
+  const char *prefix;
+  PC method;
+  PetscFunctionBegin;
+  PetscCall(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(pc)), data_of(pc).inner.put()));
+  PetscCall(PetscObjectIncrementTabLevel(reinterpret_cast<PetscObject>(static_cast<KSP>(inner)),
+                                         reinterpret_cast<PetscObject>(pc), 1));
+  PetscCall(KSPSetErrorIfNotConverged(inner, pc->erroriffailure));
+  PetscCall(PCGetOptionsPrefix(pc, &prefix));
+  PetscCall(KSPSetOptionsPrefix(inner, prefix));
+  PetscCall(KSPAppendOptionsPrefix(inner, "condensed_"));
+  PetscCall(KSPSetType(inner, KSPPREONLY));
+  PetscCall(KSPGetPC(inner, &method));
+  PetscCall(PCSetType(method, PCGAMG));
+  PetscCall(KSPSetFromOptions(inner));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode SetUp(PC pc)
 {
   ContactPc &data = data_of(pc);
   PetscContainer container;
   void *shared;
+  bool anew;
   PetscFunctionBegin;
   PetscCall(
       PetscObjectQuery(reinterpret_cast<PetscObject>(pc->pmat), attached, reinterpret_cast<PetscObject *>(&container)));
   PetscCheck(container, PetscObjectComm(reinterpret_cast<PetscObject>(pc)), PETSC_ERR_USER_INPUT,
              "-pc_type contact: only for -model solid");
   PetscCall(PetscContainerGetPointer(container, &shared));
-  PetscCall(data.condensation.SetUp(pc->pmat, **static_cast<Shared *>(shared)));
+  PetscCall(data.condensation.SetUp(pc->pmat, **static_cast<Shared *>(shared), anew));
   const Mat S = data.condensation.reduced();
+  if (anew) {
+    PetscCall(CreateInner(pc));
+    PetscCall(MatCreateVecs(S, data.y.put(), data.g.put()));
+  }
   PetscCall(KSPSetOperators(data.inner, S, S));
-  PetscCall(MatCreateVecs(S, data.y.put(), data.g.put()));
   PetscCall(KSPSetUp(data.inner));
   PetscFunctionReturn(0);
 }
@@ -55,32 +81,17 @@ PetscErrorCode Apply(PC pc, Vec f, Vec x)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SetFromOptions(PC pc, PetscOptionItems *)
-{
-  const char *prefix;
-  PetscFunctionBegin;
-  PetscCall(PCGetOptionsPrefix(pc, &prefix));
-  PetscCall(KSPSetOptionsPrefix(data_of(pc).inner, prefix));
-  PetscCall(KSPAppendOptionsPrefix(data_of(pc).inner, "condensed_"));
-  PetscCall(KSPSetFromOptions(data_of(pc).inner));
-  PetscFunctionReturn(0);
-}
-
 PetscErrorCode View(PC pc, PetscViewer viewer)
 {
   PetscFunctionBegin;
-  PetscCall(KSPView(data_of(pc).inner, viewer));
+  if (static_cast<KSP>(data_of(pc).inner)) PetscCall(KSPView(data_of(pc).inner, viewer));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode Reset(PC pc)
 {
-  ContactPc &data = data_of(pc);
   PetscFunctionBegin;
-  data.condensation = {};
-  data.g.reset();
-  data.y.reset();
-  PetscCall(KSPReset(data.inner));
+  data_of(pc) = {};
   PetscFunctionReturn(0);
 }
 
@@ -94,22 +105,13 @@ PetscErrorCode Destroy(PC pc)
 
 PetscErrorCode Create(PC pc)
 {
-  auto data = std::make_unique<ContactPc>();
-  PC inner;
   PetscFunctionBegin;
-  PetscCall(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(pc)), data->inner.put()));
-  PetscCall(PetscObjectIncrementTabLevel(reinterpret_cast<PetscObject>(static_cast<KSP>(data->inner)),
-                                         reinterpret_cast<PetscObject>(pc), 1));
-  PetscCall(KSPSetType(data->inner, KSPPREONLY));
-  PetscCall(KSPGetPC(data->inner, &inner));
-  PetscCall(PCSetType(inner, PCGAMG));
   pc->ops->setup = SetUp;
   pc->ops->apply = Apply;
-  pc->ops->setfromoptions = SetFromOptions;
   pc->ops->view = View;
   pc->ops->reset = Reset;
   pc->ops->destroy = Destroy;
-  pc->data = data.release();
+  pc->data = std::make_unique<ContactPc>().release();
   PetscFunctionReturn(0);
 }
 

@@ -34,11 +34,9 @@ PetscErrorCode Factorise(KSP ksp, Vec, Vec, void *)
   Mat factor;
   MatSolverType package;
   PetscInt reserve;
-  PetscBool direct, mumps = PETSC_FALSE;
+  PetscBool mumps = PETSC_FALSE;
   PetscFunctionBeginUser;
   PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(pc), &direct, PCLU, PCCHOLESKY, ""));
-  if (!direct) PetscFunctionReturn(0);
   PetscCall(PCGetFailedReason(pc, &failure));
   if (failure != PC_NOERROR) PetscCall(ForgetFactor(pc));
   for (int doubling = 0;; ++doubling) {
@@ -58,16 +56,32 @@ PetscErrorCode Factorise(KSP ksp, Vec, Vec, void *)
 
 } // namespace
 
-PetscErrorCode Problem::SetUpLinearSolver(KSP ksp)
+PetscErrorCode Problem::SetUpLinearSolver(SNES snes)
 {
+  KSP ksp;
   PC pc;
   PetscFunctionBeginUser;
   PetscCall(RegisterContactPc());
+  PetscCall(SNESGetKSP(snes, &ksp));
   PetscCall(KSPSetType(ksp, KSPPREONLY));
-  PetscCall(KSPSetPreSolve(ksp, Factorise, nullptr));
   PetscCall(KSPGetPC(ksp, &pc));
   PetscCall(PCSetType(pc, PCLU));
   PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  PetscFunctionReturn(0);
+}
+
+/// When the options have been read. A linear solver has one hook before each solve; iterative ones have Eisenstat and
+/// Walker's choice of the tolerance there.
+PetscErrorCode Problem::HookLinearSolver(SNES snes)
+{
+  KSP ksp;
+  PC pc;
+  PetscBool direct;
+  PetscFunctionBeginUser;
+  PetscCall(SNESGetKSP(snes, &ksp));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(pc), &direct, PCLU, PCCHOLESKY, ""));
+  if (direct) PetscCall(KSPSetPreSolve(ksp, Factorise, nullptr));
   PetscFunctionReturn(0);
 }
 

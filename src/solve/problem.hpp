@@ -132,6 +132,17 @@ public:
   StepFailure last_failure; ///< words empty: none yet
   std::string stop_reason;  ///< why an accepted step ends the run; empty: it goes on
 
+  /// Of the last Newton iteration, by `worst`; infinite outside of a solve and in its first iteration.
+  double contraction = std::numeric_limits<double>::infinity();
+
+  /// Whether one more iteration with the matrix of the last one is enough: it leaves about 2 contraction of the
+  /// residual, since a full step's remainder is half of what the matrix changes by along it.
+  bool old_matrix_will_do() const
+  {
+    constexpr double allowance = 10;
+    return allowance * contraction * worst.ratio <= 1;
+  }
+
   PetscErrorCode BuildMatrix();
   PetscErrorCode BeginStep(); ///< from the accepted state
   PetscErrorCode UpdatePattern(SNES snes);
@@ -158,7 +169,8 @@ private:
   PetscErrorCode ListContactUnknowns();
   PetscErrorCode MeasurePlate();
   PetscErrorCode SetUpTs();
-  PetscErrorCode SetUpLinearSolver(KSP ksp);
+  PetscErrorCode SetUpLinearSolver(SNES snes);
+  PetscErrorCode HookLinearSolver(SNES snes);
   PetscReal ShortestStep() const; ///< of the phase [s]
   PetscReal LongestStep() const;  ///< of the phase [s]
   PetscErrorCode RunPhase(int k);

@@ -102,7 +102,6 @@ PetscErrorCode Problem::SetUpTs()
 {
   SNES snes;
   SNESLineSearch search;
-  KSP ksp;
   TSAdapt adapt;
   PetscFunctionBeginUser;
   PetscCall(TSCreate(PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm))), ts.put()));
@@ -131,8 +130,7 @@ PetscErrorCode Problem::SetUpTs()
   PetscCall(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
   PetscCall(SNESSetDivergenceTolerance(snes, -1)); // a change of the active set may raise the residual at first
   PetscCall(SNESSetTolerances(snes, 0, 1e-7, 0, 25, -1));
-  PetscCall(SNESGetKSP(snes, &ksp));
-  PetscCall(SetUpLinearSolver(ksp));
+  PetscCall(SetUpLinearSolver(snes));
   PetscFunctionReturn(0);
 }
 

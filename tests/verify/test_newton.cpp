@@ -7,6 +7,8 @@
 /// above it. Steps that are small, or that start from the last step's motion, converge in two: so -ts_atol 1.5e-3 makes
 /// larger ones and Newton starts from the last state. That the criterion can fail is shown by keeping the matrix for
 /// two iterations: then convergence is linear.
+///
+/// The program keeps the matrix too, where one more iteration with it is foreseen to be enough.
 #include "probe.hpp"
 
 #include <limits>
@@ -108,6 +110,31 @@ void watch(Scene scene, Outcome &outcome)
   std::printf("order %d: %zu of %d steps count\n", scene.mesh.element_order, outcome.counted, newton.steps);
 }
 
+/// Counts the iterations with the matrix of the last one.
+struct KeptMatrices {
+  Problem &problem;
+  PetscReal seen = 0; ///< its norm
+  int iterations = 0, kept = 0, not_enough = 0;
+  bool last_was_kept = false;
+
+  static PetscErrorCode Monitor(SNES, PetscInt iteration, PetscReal, void *context)
+  {
+    auto &self = *static_cast<KeptMatrices *>(context);
+    PetscReal norm;
+    PetscFunctionBeginUser;
+    PetscCall(MatNorm(self.problem.jacobian, NORM_FROBENIUS, &norm));
+    if (iteration > 0) {
+      ++self.iterations;
+      self.not_enough += self.last_was_kept;
+      self.last_was_kept = norm == self.seen;
+      self.kept += self.last_was_kept;
+    } else
+      self.last_was_kept = false;
+    self.seen = norm;
+    PetscFunctionReturn(0);
+  }
+};
+
 const std::vector<std::pair<std::string, std::string>> to_the_floor = {{"-snes_rtol", "1e-14"}, {"-ts_atol", "1.5e-3"}};
 
 } // namespace
@@ -150,6 +177,25 @@ TEST(newton, IsSeenToBeLinearWithAnOldMatrix)
   watch(scene, outcome);
   EXPECT_GE(outcome.counted, 20u);
   EXPECT_GT(outcome.spread, 10);
+}
+
+TEST(newton, KeepsTheMatrixWhereOneMoreIterationIsEnough)
+{
+  const Scene scene = paper_scene(6);
+  Problem problem;
+  KeptMatrices watched{problem};
+  SNES snes;
+  bool completed = false;
+  std::string why;
+  ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, scene), 0);
+  ASSERT_EQ(TSGetSNES(problem.ts, &snes), 0);
+  ASSERT_EQ(SNESMonitorSet(snes, KeptMatrices::Monitor, &watched, nullptr), 0);
+  ASSERT_EQ(problem.Run({}, completed, why), 0);
+  ASSERT_TRUE(completed) << why;
+  std::printf("%d iterations, %d with an old matrix, not enough: %d\n", watched.iterations, watched.kept,
+              watched.not_enough);
+  EXPECT_GE(watched.kept, watched.iterations / 10);
+  EXPECT_LE(watched.not_enough, watched.kept / 4);
 }
 
 } // namespace tribogel::test

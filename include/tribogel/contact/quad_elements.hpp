@@ -25,10 +25,16 @@ std::vector<QuadPairMortar<order>> quad_element_mortar(const QuadMeasure<order> 
                                                        const std::vector<QuadPair<order>> &pairs, bool derivatives)
 {
   constexpr int points = element_points<order>, nodes = tensor_nodes<2, order>;
+  static_assert(points * points <= quad_mortar::Samples<order>::most);
   static const auto rule = gauss_rule<points>();
   std::vector<QuadPairMortar<order>> results(pairs.size());
   std::vector<quad_mortar::Point<order>> at;
   for (const QuadPair<order> &pair : pairs) at.emplace_back(slave, pair);
+  struct Hit {
+    typename quad_mortar::Point<order>::Meeting meeting;
+    double weight;
+  };
+  std::vector<std::vector<Hit>> hits(pairs.size());
   for (int q = 0; q < points * points; ++q) {
     const double weight = rule.weight[q % points] * rule.weight[q / points];
     typename quad_mortar::Point<order>::Meeting hit;
@@ -44,12 +50,21 @@ std::vector<QuadPairMortar<order>> quad_element_mortar(const QuadMeasure<order> 
       hit = meeting;
     }
     if (which == pairs.size()) continue;
-    QuadPairMortar<order> &result = results[which];
-    result.covered += weight;
-    at[which].add(hit, weight, result.M, result.overhang);
+    results[which].covered += weight;
+    hits[which].push_back({hit, weight});
+  }
+  quad_mortar::Samples<order> samples;
+  quad_mortar::SampleSlopes<order> slopes;
+  for (std::size_t k = 0; k < hits.size(); ++k) {
+    if (hits[k].empty()) continue;
+    samples.count = 0;
+    for (const Hit &one : hits[k]) results[k].overhang += at[k].sample(one.meeting, one.weight, derivatives, samples);
+    results[k].M = samples.integral();
     if (!derivatives) continue;
-    if (result.dM.size() == 0) result.dM.setZero(nodes * nodes, 9 * nodes);
-    at[which].add_slope(hit, weight, result.dM);
+    results[k].dM.setZero(nodes * nodes, 9 * nodes);
+    slopes.clear();
+    slopes.add(samples, 1);
+    slopes.add_to(slave.basis.A, results[k].dM);
   }
   return results;
 }

@@ -49,13 +49,14 @@ template <int order> class Fan
 public:
   static constexpr int nodes = tensor_nodes<2, order>;
   using Result = QuadPairMortar<order>;
-  using ByXi = typename Point<order>::ByXi;
+  using ByXi = typename CornerSlopes<order>::ByXi;
 
   std::vector<ByXi> by_vertex; ///< dM / d xi of each vertex of the polygon
 
   Fan(const QuadMeasure<order> &slave_measure, const QuadPair<order> &facet_pair, bool derivatives)
-      : point(slave_measure, facet_pair), with_derivatives(derivatives)
+      : point(slave_measure, facet_pair), basis(slave_measure.basis.A), with_derivatives(derivatives)
   {
+    if (derivatives) slopes.clear();
   }
 
   /// Adds the integrals over a clockwise polygon, and to dM what it changes by when the polygon stays.
@@ -68,13 +69,20 @@ public:
       const std::size_t next = (k + 1) % polygon.size();
       add_triangle({middle, polygon[k], polygon[next]}, {&by_middle, &by_vertex[k], &by_vertex[next]}, out);
     }
-    if (with_derivatives) share_middle(polygon);
+    if (!with_derivatives) return;
+    share_middle(polygon);
+    slopes.add_to(basis, out.dM);
   }
 
 private:
   using Triangle = std::array<Vector2<double>, 3>;
 
   Point<order> point;
+  const Eigen::Matrix<double, nodes, nodes> &basis; ///< psi = basis N
+  Samples<order> samples;                           ///< of one triangle
+  typename CornerSlopes<order>::Shares shares;
+  SampleSlopes<order> slopes;
+  CornerSlopes<order> corner_slopes;
   bool with_derivatives;
   Vector2<double> middle;
   ByXi by_middle;
@@ -123,11 +131,25 @@ private:
     const double area = -0.5 * cross(e1, e2); // positive: the outline runs clockwise
     if (area == 0 && !with_derivatives) return;
     out.covered += area;
-    typename Result::Matrix mean = Result::Matrix::Zero();
-    for (std::size_t q = 0; q < rule.weight.size(); ++q)
-      add_point(corner, by_corner, rule.point[q], rule.weight[q], area, mean, out);
+    double beyond = 0;
+    samples.count = 0;
+    for (std::size_t q = 0; q < rule.weight.size(); ++q) {
+      Vector2<double> xi = Vector2<double>::Zero();
+      for (int c = 0; c < 3; ++c) xi += rule.point[q][c] * corner[c];
+      const auto meeting = point.meet({xi[0], xi[1]});
+      if (!meeting.found) {
+        out.status = MortarStatus::no_projection;
+        continue;
+      }
+      for (int c = 0; c < 3; ++c) shares(samples.count, c) = rule.point[q][c];
+      beyond += point.sample(meeting, rule.weight[q], with_derivatives, samples);
+    }
+    const typename Result::Matrix mean = samples.integral();
+    out.overhang += area * beyond;
     out.M += area * mean;
     if (!with_derivatives) return;
+    slopes.add(samples, area);
+    corner_slopes.add(samples, shares, area, by_corner);
     // d area / d corner: half the opposite edge, turned
     const Vector2<double> edge[3] = {corner[2] - corner[1], -e2, e1};
     for (int c = 0; c < 3; ++c) {
@@ -135,25 +157,6 @@ private:
       const Eigen::Map<const Eigen::Matrix<double, nodes * nodes, 1>> all(mean.data());
       by_corner[c]->noalias() += all * slope.transpose();
     }
-  }
-
-  void add_point(const Triangle &corner, const std::array<ByXi *, 3> &by_corner, const std::array<double, 3> &share,
-                 double rule_weight, double area, typename Result::Matrix &mean, Result &out)
-  {
-    Vector2<double> xi = Vector2<double>::Zero();
-    for (int c = 0; c < 3; ++c) xi += share[c] * corner[c];
-    const auto meeting = point.meet({xi[0], xi[1]});
-    if (!meeting.found) {
-      out.status = MortarStatus::no_projection;
-      return;
-    }
-    double beyond = 0;
-    point.add(meeting, rule_weight, mean, beyond);
-    out.overhang += area * beyond;
-    if (!with_derivatives) return;
-    point.add_slope(meeting, rule_weight * area, out.dM);
-    const ByXi slope = rule_weight * area * point.slope_along(meeting); // the point moves with the triangle
-    for (int c = 0; c < 3; ++c) *by_corner[c] += share[c] * slope;
   }
 };
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "tribogel/contact/quad_facet.hpp"
+#include "tribogel/contact/quad_samples.hpp"
 #include "tribogel/contact/report.hpp"
 
 #include <algorithm>
@@ -52,13 +53,12 @@ inline Vector3<double> limited(const Vector3<double> &step)
 template <int order> class Point
 {
 public:
-  static constexpr int nodes = tensor_nodes<2, order>, inputs = 9 * nodes;
-  using Result = QuadPairMortar<order>;
-  using ByXi = Eigen::Matrix<double, nodes * nodes, 2, Eigen::RowMajor>;
+  static constexpr int nodes = tensor_nodes<2, order>;
 
   Point(const QuadMeasure<order> &slave_measure, const QuadPair<order> &facet_pair)
       : measure(slave_measure), pair(facet_pair)
   {
+    for (int b = 0; b < nodes; ++b) y.col(b) << pair.y[b], 0;
   }
 
   /// The master's point that the slave's normal line at xi meets.
@@ -71,21 +71,21 @@ public:
     bool found = false, from_front = true; ///< the normal enters the master's body
   };
 
-  /// Newton's method, which starts where the last one ended.
+  /// Newton's method, which starts where the last one ended, and would be by then if facets were flat.
   Meeting meet(const std::array<double, 2> &xi)
   {
     Meeting at;
     at.xi = xi;
     at.slave = quad_shape<order>(xi);
     const Vector3<double> point = interpolate(at.slave.N, pair.x), normal = interpolate(at.slave.N, pair.n);
-    at.eta = last_eta;
+    at.eta = start(point, normal);
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       at.master = quad_shape<order>(at.eta);
+      const MasterPlace place = master_place(at.master);
       Matrix3<double> A;
-      for (int j = 0; j < 2; ++j) A.col(j) = tangent(at.master.dN, pair.y, j);
-      A.col(2) = -normal;
+      A << place.t1.template head<3>(), place.t2.template head<3>(), -normal;
       const Matrix3<double> inverse = A.inverse();
-      const Vector3<double> step = limited(inverse * (point + at.g * normal - interpolate(at.master.N, pair.y)));
+      const Vector3<double> step = limited(inverse * (point + at.g * normal - place.y.template head<3>()));
       if (!step.allFinite()) return at;
       at.eta[0] += step[0];
       at.eta[1] += step[1];
@@ -95,72 +95,84 @@ public:
       at.slope = inverse.template topRows<2>();
       at.found = true;
       at.from_front = A.col(0).cross(A.col(1)).dot(normal) < 0;
-      last_eta = at.eta;
+      last = {at.eta, at.g, point + at.g * normal, at.slope};
       return at;
     }
     return at;
   }
 
-  /// Adds the integrand times `weight` to `M`, and to `overhang` its share beyond the master's edge.
-  void add(const Meeting &at, double weight, typename Result::Matrix &M, double &overhang) const
+  /// Adds a row to the samples: all that sums of the integrand times `weight` are made of, or of its values only.
+  /// Returns the weight if the point is beyond the master's edge [mm^2].
+  double sample(const Meeting &at, double weight, bool with_derivatives, Samples<order> &out) const
   {
-    const double W = weight * measure.weight(at.xi).value;
-    const auto psi = measure.basis(at.slave.N);
-    for (int a = 0; a < nodes; ++a)
-      for (int b = 0; b < nodes; ++b) M(a, b) += W * psi[a] * at.master.N[b];
-    if (is_beyond_edge(at.eta)) overhang += W;
-  }
-
-  /// With W = weight J psi_a: through eta of the data, W dN_b/deta deta/dx (N_c dx_c + g N_c dn_c - N_c(eta) dy_c).
-  template <class Slope> void add_slope(const Meeting &at, double weight, Slope &dM) const
-  {
-    const auto psi = measure.basis(at.slave.N);
-    const double J = measure.weight(at.xi).value;
-    const auto by_x = position_slope(at);
-    Eigen::Matrix<double, nodes, inputs, Eigen::RowMajor> row; // of each b, without psi_a
-    for (int b = 0; b < nodes; ++b)
-      for (int c = 0; c < nodes; ++c)
-        for (int i = 0; i < 3; ++i) {
-          const double d = weight * J * at.slave.N[c] * by_x[b][i];
-          row(b, 3 * c + i) = d;
-          row(b, 3 * (nodes + c) + i) = at.g * d;
-          row(b, 3 * (2 * nodes + c) + i) = -weight * J * at.master.N[c] * by_x[b][i];
-        }
-    for (int a = 0; a < nodes; ++a) dM.template middleRows<nodes>(a * nodes) += psi[a] * row;
-  }
-
-  /// The integrand's derivative by xi, for points that move in the slave facet.
-  ByXi slope_along(const Meeting &at) const
-  {
+    const int q = out.count++;
     const auto psi = measure.basis(at.slave.N);
     const auto J = measure.weight(at.xi);
-    const auto by_x = position_slope(at);
-    ByXi slope;
-    for (int j = 0; j < 2; ++j) {
-      const Vector3<double> along = tangent(at.slave.dN, pair.x, j) + at.g * tangent(at.slave.dN, pair.n, j);
-      for (int a = 0; a < nodes; ++a) {
-        double d_psi = 0;
-        for (int c = 0; c < nodes; ++c) d_psi += measure.basis.A(a, c) * at.slave.dN[c][j];
-        for (int b = 0; b < nodes; ++b)
-          slope(a * nodes + b, j) =
-              (J.slope[j] * psi[a] + J.value * d_psi) * at.master.N[b] + J.value * psi[a] * by_x[b].dot(along);
-      }
+    for (int a = 0; a < nodes; ++a) {
+      out.psi(q, a) = weight * J.value * psi[a];
+      out.N(q, a) = at.master.N[a];
     }
-    return slope;
+    if (with_derivatives) {
+      sample_inputs(at, weight * J.value, q, out);
+      for (int j = 0; j < 2; ++j)
+        for (int a = 0; a < nodes; ++a) {
+          double d_psi = 0;
+          for (int c = 0; c < nodes; ++c) d_psi += measure.basis.A(a, c) * at.slave.dN[c][j];
+          out.d_psi[j](q, a) = weight * (J.slope[j] * psi[a] + J.value * d_psi);
+        }
+    }
+    return is_beyond_edge(at.eta) ? weight * J.value : 0;
   }
 
 private:
+  using Padded = Eigen::Matrix<double, 4, 1>; ///< a vector and 0: a register's worth
+  struct MasterPlace {
+    Padded y, t1, t2; ///< position and tangents
+  };
+  struct Last {
+    std::array<double, 2> eta{};
+    double g = 0;
+    Vector3<double> y = Vector3<double>::Zero();
+    Eigen::Matrix<double, 2, 3> slope = Eigen::Matrix<double, 2, 3>::Zero();
+  };
   const QuadMeasure<order> &measure;
   const QuadPair<order> &pair;
-  std::array<double, 2> last_eta{};
+  Eigen::Matrix<double, 4, nodes> y;
+  Last last;
 
-  /// Of the master's shape functions by the position of the meeting point.
-  std::array<Vector3<double>, nodes> position_slope(const Meeting &at) const
+  std::array<double, 2> start(const Vector3<double> &point, const Vector3<double> &normal) const
   {
-    std::array<Vector3<double>, nodes> by_x;
-    for (int b = 0; b < nodes; ++b)
-      by_x[b] = (at.master.dN[b][0] * at.slope.row(0) + at.master.dN[b][1] * at.slope.row(1)).transpose();
-    return by_x;
+    const Vector2<double> on = last.slope * (point + last.g * normal - last.y);
+    const Vector3<double> step = limited({on[0], on[1], 0});
+    if (!step.allFinite()) return last.eta;
+    return {last.eta[0] + step[0], last.eta[1] + step[1]};
+  }
+
+  MasterPlace master_place(const QuadShape<order> &shape) const
+  {
+    MasterPlace at{shape.N[0] * y.col(0), shape.dN[0][0] * y.col(0), shape.dN[0][1] * y.col(0)};
+    for (int b = 1; b < nodes; ++b) {
+      at.y += shape.N[b] * y.col(b);
+      at.t1 += shape.dN[b][0] * y.col(b);
+      at.t2 += shape.dN[b][1] * y.col(b);
+    }
+    return at;
+  }
+
+  /// How N follows the position of the meeting point, what that follows, and both when the point moves along xi.
+  void sample_inputs(const Meeting &at, double W, int q, Samples<order> &out) const
+  {
+    Eigen::Matrix<double, 3, 2> along;
+    for (int j = 0; j < 2; ++j) along.col(j) = tangent(at.slave.dN, pair.x, j) + at.g * tangent(at.slave.dN, pair.n, j);
+    const Eigen::Matrix2d moved = at.slope * along;
+    for (int b = 0; b < nodes; ++b) {
+      for (int i = 0; i < 3; ++i)
+        out.by_x(q, 3 * b + i) = W * (at.master.dN[b][0] * at.slope(0, i) + at.master.dN[b][1] * at.slope(1, i));
+      for (int j = 0; j < 2; ++j)
+        out.d_N[j](q, b) = at.master.dN[b][0] * moved(0, j) + at.master.dN[b][1] * moved(1, j);
+      out.slave(q, b) = at.slave.N[b];
+      out.slave_g(q, b) = at.g * at.slave.N[b];
+    }
   }
 
   bool is_beyond_edge(const std::array<double, 2> &eta) const
