@@ -8,6 +8,8 @@ With --mpirun some refusals are repeated on two processes. Each run has a direct
 options/README.md must be what -help markdown prints.
 """
 import argparse
+import concurrent.futures
+import functools
 import pathlib
 import re
 import subprocess
@@ -183,6 +185,12 @@ def prepare(directory):
 
 
 def prepare_meshes(directory):
+    for name, text in meshes().items():
+        (directory / f"{name}.msh").write_text(text)
+
+
+@functools.cache
+def meshes():
     """A mesh file, and ways to spoil it: 27 nodes of the bottom specimen, 27 of the top one, 9 a layer."""
     made = subprocess.run([TOOLS / "specimen-mesh", "square", "--elements", "1", "--bottom-radius", "14"],
                           capture_output=True, text=True, check=True)
@@ -196,11 +204,10 @@ def prepare_meshes(directory):
 
     contact = re.search(" 3 2 5 5( .*)", good).group()  # the first face of top_contact
     inner = " 3 2 5 5 " + " ".join(str(int(node) + 9) for node in contact.split()[4:])
-    for name, text in [("good", good), ("nameless", good.replace('"top_contact"', '"contact"')),
-                       ("tetrahedra", good.replace(" 5 2 1 1 ", " 4 2 1 1 ", 1)), ("inner", good.replace(contact, inner)),
-                       ("inclined", moved(lambda n: -0.1 if n == 1 else 0)), ("low", moved(lambda n: -1 if n < 28 else 0)),
-                       ("overlapping", moved(lambda n: -0.5 if n > 27 else 0))]:
-        (directory / f"{name}.msh").write_text(text)
+    return {"good": good, "nameless": good.replace('"top_contact"', '"contact"'),
+            "tetrahedra": good.replace(" 5 2 1 1 ", " 4 2 1 1 ", 1), "inner": good.replace(contact, inner),
+            "inclined": moved(lambda n: -0.1 if n == 1 else 0), "low": moved(lambda n: -1 if n < 28 else 0),
+            "overlapping": moved(lambda n: -0.5 if n > 27 else 0)}
 
 
 def judge_refusal(command, expected):
@@ -236,26 +243,20 @@ def main():
     if arguments.mpirun:
         commands.append((" on two processes", [arguments.mpirun, "-q", "-n", "2", arguments.tribogel]))
 
-    failures = cases = 0
-    for where, command in commands:
-        for name, words, expected in REFUSALS:
-            if where and name not in ON_TWO_PROCESSES:
-                continue
-            cases += 1
-            for line in judge_refusal(command + words, expected):
+    cases = [(name + where, judge_refusal, command + words, expected) for where, command in commands
+             for name, words, expected in REFUSALS if not where or name in ON_TWO_PROCESSES]
+    cases += [(name, judge_run, commands[0][1] + words, expected) for name, words, expected in RUNS]
+    failures = 0
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:  # starting a program is three quarters waiting
+        for (name, *_), wrong in zip(cases, pool.map(lambda case: case[1](*case[2:]), cases)):
+            for line in wrong:
                 failures += 1
-                print(f"FAILED {name}{where}: {line}")
-    for name, words, expected in RUNS:
-        cases += 1
-        for line in judge_run(commands[0][1] + words, expected):
-            failures += 1
-            print(f"FAILED {name}: {line}")
-    cases += 1
+                print(f"FAILED {name}: {line}")
     page = pathlib.Path(__file__).resolve().parents[2] / "options" / "README.md"
     if start([arguments.tribogel, "-help", "markdown"], page.parent, TIMEOUT).stdout != page.read_text():
         failures += 1
         print(f"FAILED page of options: {page} is not what '-help markdown' prints")
-    print(f"{cases} cases, {failures} failures")
+    print(f"{len(cases) + 1} cases, {failures} failures")
     return 1 if failures else 0
 
 

@@ -167,6 +167,11 @@ struct Assembled {
   std::vector<ContactStatus> status;
 };
 
+inline std::vector<std::pair<int, int>> pairs_of_scene(const ContactScene &scene)
+{
+  return AxisymmetricContact(scene.geometry).candidate_pairs(scene.state, 0);
+}
+
 /// Residual and Jacobian by the operator, node by node, as a solver would assemble them.
 inline Assembled assemble(const ContactScene &scene, const std::vector<std::pair<int, int>> &pairs, const Law &law,
                           bool derivatives)

@@ -21,11 +21,6 @@ using testing::whole_residual;
 constexpr double pi = std::numbers::pi;
 const Law mixed{{0.3, 0.21, 0.13}, {0, 1, 2.5}};
 
-std::vector<std::pair<int, int>> pairs_of_scene(const ContactScene &scene)
-{
-  return AxisymmetricContact(scene.geometry).candidate_pairs(scene.state, 0);
-}
-
 ContactScene wavy(int order, double inner_radius, double master_radius, unsigned seed)
 {
   const auto wave = [](double Z, double amplitude, double frequency) {

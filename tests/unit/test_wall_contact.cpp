@@ -110,11 +110,6 @@ ContactScene wall_scene(int order, int facets, double disorder)
           parameters};
 }
 
-std::vector<std::pair<int, int>> pairs_of_scene(const ContactScene &scene)
-{
-  return AxisymmetricContact(scene.geometry).candidate_pairs(scene.state, 0);
-}
-
 } // namespace
 
 /// The neighbour's multiplier is extended to the crease, so a constant one loads every node of a lying wall, crease

@@ -101,6 +101,11 @@ class Report(unittest.TestCase):
         run = made_up(1, 8000, 10, 20.0, solves=12, linear=6.0)
         self.assertAlmostEqual(run.rest_of_newton, 1 - 6 * 10 / 12 / 20, delta=1e-14)
 
+    def test_what_is_residual_and_jacobian_is_not_the_solver(self):
+        run = made_up(1, 8000, 10, 20.0, linear=17.0)  # an inner set-up counted twice
+        run.events |= {"SNESFunctionEval": logged_run.Event(12, 1.5, 0, 0, 0, 0), "SNESJacobianEval": logged_run.Event(10, 6.5, 0, 0, 0, 0)}
+        self.assertAlmostEqual(logged_run.Run.linear_seconds.fget(run), 12, delta=1e-12)
+
     def test_what_it_must_state(self):
         runs = {(1, k): made_up(1, n, 10, 1e-3 * n ** 1.25, linear=5e-4 * n ** 1.25, memory=40 + 5e-3 * n)
                 for k, n in ((4, 1000), (8, 8000), (16, 64000))}
