@@ -4,7 +4,7 @@
   tidy.py BUILD_DIRECTORY [FOLDER ...]      default: every folder of src, and include
 
 The sources of a folder are read as one, and all headers of include as one: clang-tidy's time goes into the headers that they
-share (11 CPU minutes file by file, 4 like this). So names in the anonymous namespaces of one folder have to differ; "redefinition" says
+share (11 CPU minutes file by file, about 5 like this). So names in the anonymous namespaces of one folder have to differ; "redefinition" says
 when they do not. The analyzer must be told to look beyond the main file, and gives up on a function after --nodes states (its own
 limit, 225,000, doubles the time).
 """
