@@ -123,7 +123,7 @@ void Condensation::Classify(NodeBlocks &node)
   const Square R = qr.matrixQR().topRows<3>().template triangularView<Eigen::Upper>();
   const Eigen::Matrix<double, 6, 3> Q = qr.householderQ() * Eigen::Matrix<double, 6, 3>::Identity();
   const Eigen::JacobiSVD<Square> svd(Q.topRows<3>().transpose(), Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Square U = svd.matrixU(), V = svd.matrixV();
+  const Square &U = svd.matrixU(), &V = svd.matrixV();
   const Square combine = U.transpose() * R.transpose().inverse(); // of the conditions
 
   const auto held = (svd.singularValues().array() <= held_below).count(); // the last ones
