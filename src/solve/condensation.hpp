@@ -1,4 +1,5 @@
-/// The contact Jacobian without its multipliers and without the slave displacements that contact conditions prescribe.
+/// The contact Jacobian without its multipliers and without the slave displacements that contact conditions prescribe
+/// (THEORY 3.8).
 ///
 /// Rows and columns of the Jacobian A in blocks: r displacements of all nodes that carry no multiplier, s displacements
 /// of the slave nodes, l their multipliers. Node by node, three of each,
