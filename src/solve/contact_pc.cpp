@@ -77,7 +77,7 @@ PetscErrorCode SetUp(PC pc)
   PetscCall(
       PetscObjectQuery(reinterpret_cast<PetscObject>(pc->pmat), attached, reinterpret_cast<PetscObject *>(&container)));
   PetscCheck(container, PetscObjectComm(reinterpret_cast<PetscObject>(pc)), PETSC_ERR_USER_INPUT,
-             "-pc_type contact: only for -model solid");
+             "only for -model solid");
   PetscCall(PetscContainerGetPointer(container, &shared));
   PetscCall(data.condensation.Read(pc->pmat, *static_cast<Shared *>(shared), anew));
   if (anew) data.inner.reset(); // two multigrids would not fit beside each other where one does
