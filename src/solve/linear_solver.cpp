@@ -96,7 +96,7 @@ PetscErrorCode Problem::HookLinearSolver(SNES snes)
 {
   KSP ksp;
   PC pc;
-  PetscBool direct, told[2];
+  PetscBool direct, given[2];
   PetscFunctionBeginUser;
   PetscCall(SNESGetKSP(snes, &ksp));
   PetscCall(KSPGetPC(ksp, &pc));
@@ -105,9 +105,9 @@ PetscErrorCode Problem::HookLinearSolver(SNES snes)
     PetscCall(KSPSetPreSolve(ksp, Factorise, nullptr));
     PetscFunctionReturn(0);
   }
-  PetscCall(PetscOptionsHasName(nullptr, nullptr, "-ksp_rtol", &told[0]));
-  PetscCall(PetscOptionsHasName(nullptr, nullptr, "-snes_ksp_ew", &told[1]));
-  if (told[0] || told[1]) PetscFunctionReturn(0);
+  PetscCall(PetscOptionsHasName(nullptr, nullptr, "-ksp_rtol", &given[0]));
+  PetscCall(PetscOptionsHasName(nullptr, nullptr, "-snes_ksp_ew", &given[1]));
+  if (given[0] || given[1]) PetscFunctionReturn(0);
   if (!steady()) {
     PetscCall(KSPSetTolerances(ksp, transient_tolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
     PetscFunctionReturn(0);
