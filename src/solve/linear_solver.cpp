@@ -9,9 +9,10 @@ namespace
 
 constexpr PetscInt workspace_reserve = 14; ///< MUMPS's ICNTL of that name [%]
 
-/// Unknowns in space from which on multigrid is faster than MUMPS on one core (order 1, paper's scene: 1.9 s against
-/// 1.7 s a Newton iteration at 18,000, 7 s against 2.6 s at 42,000).
-constexpr PetscInt direct_up_to = 20000;
+/// Unknowns in space up to which MUMPS is faster than multigrid on one core, by the elements' order. CPU seconds of a
+/// Newton iteration, MUMPS and multigrid: order 1 (paper's scene) 0.5 and 0.6 at 7,500 unknowns, 6.8 and 2.6 at 42,500;
+/// order 2 (two_cylinders.opts) 4.4 and 7.7 at 37,700, whence the border by the powers 1.8 and 1.05 of the unknowns.
+constexpr PetscInt direct_up_to[] = {20000, 75000};
 
 constexpr double first_tolerance = 0.1; ///< of the linear solver in Eisenstat and Walker's choice, and their largest
 constexpr double transient_tolerance = 1e-5;
@@ -73,7 +74,7 @@ PetscErrorCode Problem::SetUpLinearSolver(SNES snes)
   PetscCall(RegisterContactPc());
   PetscCall(SNESGetKSP(snes, &ksp));
   PetscCall(KSPGetPC(ksp, &pc));
-  if (mesh.dim == 3 && mesh.unknowns > direct_up_to) {
+  if (mesh.dim == 3 && mesh.unknowns > direct_up_to[mesh.order - 1]) {
     PetscCall(PCSetType(pc, contact_pc));
     PetscCall(KSPSetType(ksp, KSPGMRES));
     PetscCall(KSPSetPCSide(ksp, PC_RIGHT)); // its residual is Newton's
