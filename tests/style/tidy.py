@@ -52,10 +52,13 @@ def said(*words):
     return done.returncode, "\n".join(line for line in (done.stdout + done.stderr).splitlines() if not NOISE.match(line))
 
 
-def alone(path, compiler_flags):
-    """What stops a header from being included first. With next to no check; the other errors come from the compiler."""
-    return said("--checks=-*,readability-misleading-indentation", path, "--", *compiler_flags, "-xc++",
-                "-Wno-pragma-once-outside-header")
+def alone(path, compiler_flags, directory):
+    """What stops a header from being included first. With next to no check; the other errors come from the compiler. Not the header
+    itself as the source: one that is included at the end of another would be read twice, since `#pragma once` is nothing in a source."""
+    with tempfile.NamedTemporaryFile("w", suffix=".cpp", dir=directory) as source:
+        source.write(f'#include "{path}"\n')
+        source.flush()
+        return said("--checks=-*,readability-misleading-indentation", source.name, "--", *compiler_flags)
 
 
 def together(paths, compiler_flags, nodes, directory):
@@ -78,7 +81,7 @@ def main():
     common, failed = flags(a.build), False
     with tempfile.TemporaryDirectory() as directory, concurrent.futures.ThreadPoolExecutor(2) as pool:
         jobs = [pool.submit(together, paths, common, a.nodes, directory) for paths in chosen.values()]
-        jobs += [pool.submit(alone, path, common) for path in chosen.get("include", [])]
+        jobs += [pool.submit(alone, path, common, directory) for path in chosen.get("include", [])]
         for job in jobs:
             status, text = job.result()
             failed = failed or status != 0
