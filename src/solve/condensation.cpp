@@ -1,9 +1,6 @@
 #include "solve/condensation.hpp"
 
-#include <Eigen/Dense>
-
 #include <algorithm>
-#include <limits>
 
 namespace tribogel
 {
@@ -11,63 +8,39 @@ namespace tribogel
 namespace
 {
 
-using IsHandle = Handle<IS, ISDestroy>;
-
-/// A direction is held where its condition depends on the multiplier this little, as the sine of an angle: what is
-/// called held errs by that part, what is called free is stiffer than the gel by its inverse.
-constexpr double held_below = 0.05;
-
-constexpr double rank_tolerance = 1e-10; ///< of singular values, relative to the largest
-
 MPI_Comm comm_of(Mat A)
 {
   return PetscObjectComm(reinterpret_cast<PetscObject>(A));
 }
 
-PetscErrorCode CreateIs(MPI_Comm comm, const std::vector<PetscInt> &indices, IsHandle &is)
+/// The part of A with these rows and columns, in its old place if there is one.
+PetscErrorCode Cut(Mat A, IS rows, IS columns, MatHandle &part)
 {
+  Mat old = part;
   PetscFunctionBegin;
-  PetscCall(ISCreateGeneral(comm, static_cast<PetscInt>(indices.size()), indices.data(), PETSC_COPY_VALUES, is.put()));
+  PetscCall(MatCreateSubMatrix(A, rows, columns, old ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX, old ? &old : part.put()));
   PetscFunctionReturn(0);
 }
 
-/// First indices of all ranks, sorted, without those that are absent.
-PetscErrorCode GatherFirsts(MPI_Comm comm, const std::vector<PetscInt> &own, std::vector<PetscInt> &all)
+/// X Y, in its old place if there is one.
+PetscErrorCode Multiply(Mat X, Mat Y, MatHandle &product)
 {
-  IsHandle mine, gathered;
-  const PetscInt *indices;
-  PetscInt size;
+  Mat old = product;
   PetscFunctionBegin;
-  PetscCall(CreateIs(comm, own, mine));
-  PetscCall(ISAllGather(mine, gathered.put()));
-  PetscCall(ISGetLocalSize(gathered, &size));
-  PetscCall(ISGetIndices(gathered, &indices));
-  all.assign(indices, indices + size);
-  PetscCall(ISRestoreIndices(gathered, &indices));
-  std::sort(all.begin(), all.end());
-  all.erase(all.begin(), std::lower_bound(all.begin(), all.end(), 0));
+  PetscCall(MatMatMult(X, Y, old ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX, PETSC_DEFAULT, old ? &old : product.put()));
   PetscFunctionReturn(0);
 }
 
-/// Whether `index` is one of the three that begin at any of `firsts`.
-bool among(const std::vector<PetscInt> &firsts, PetscInt index)
+/// A matrix of so many own rows and columns with room for `per_row` entries, on this rank and off it. MatMatMult may
+/// leave fewer than that.
+PetscErrorCode CreatePart(MPI_Comm comm, PetscInt rows, PetscInt columns, const std::vector<PetscInt> &per_row,
+                          MatHandle &B)
 {
-  const auto next = std::upper_bound(firsts.begin(), firsts.end(), index);
-  return next != firsts.begin() && index < *std::prev(next) + 3;
-}
-
-/// A square matrix with the layout of A and room for `per_row[i]` entries in its rows, on and off this rank.
-PetscErrorCode CreateLike(Mat A, const std::vector<PetscInt> &per_row, MatHandle &B)
-{
-  PetscInt rows, total;
-  std::vector<PetscInt> on = per_row, off = per_row;
   PetscFunctionBegin;
-  PetscCall(MatGetLocalSize(A, &rows, nullptr));
-  PetscCall(MatGetSize(A, &total, nullptr));
-  for (PetscInt &n : on) n = std::min(n, rows);
-  for (PetscInt &n : off) n = std::min(n, total - rows);
-  PetscCall(MatCreateAIJ(comm_of(A), rows, rows, total, total, 0, on.data(), 0, off.data(), B.put()));
+  PetscCall(MatCreateAIJ(comm, rows, columns, PETSC_DETERMINE, PETSC_DETERMINE, 0, per_row.data(), 0, per_row.data(),
+                         B.put()));
   PetscCall(MatSetOption(B, MAT_NO_OFF_PROC_ENTRIES, PETSC_TRUE));
+  PetscCall(MatSetOption(B, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
   PetscFunctionReturn(0);
 }
 
@@ -80,7 +53,7 @@ PetscErrorCode Assemble(Mat B)
 }
 
 template <class Block>
-PetscErrorCode SetBlock(Mat B, PetscInt row, PetscInt column, const Block &values, InsertMode mode)
+PetscErrorCode SetBlock(Mat B, PetscInt row, PetscInt column, const Block &values, InsertMode mode = INSERT_VALUES)
 {
   const PetscInt rows[] = {row, row + 1, row + 2}, columns[] = {column, column + 1, column + 2};
   PetscFunctionBegin;
@@ -88,359 +61,347 @@ PetscErrorCode SetBlock(Mat B, PetscInt row, PetscInt column, const Block &value
   PetscFunctionReturn(0);
 }
 
-using Square = Eigen::Matrix3d;
-using Svd = Eigen::JacobiSVD<Eigen::MatrixXd>;
-
-Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd &M)
-{
-  const Svd svd(M, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd &s = svd.singularValues();
-  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(M.cols(), M.rows());
-  for (Eigen::Index j = 0; j < s.size(); ++j)
-    if (s[j] > rank_tolerance * s[0]) inverse += svd.matrixV().col(j) * svd.matrixU().col(j).transpose() / s[j];
-  return inverse;
-}
-
 } // namespace
 
-/// Step 2 of the header for one node.
-void Condensation::Classify(NodeBlocks &node)
+/// Index sets and layouts for a new pattern of A.
+PetscErrorCode Condensation::List()
 {
-  const double force_per_multiplier = node.D.norm();
-  if (force_per_multiplier == 0) { // a node that the contact has left out, or one of a plate
-    node.force = node.keeps = Matrix3::Identity();
-    node.alone = pseudo_inverse(node.Z);
-    return;
-  }
-  node.D_inverse = pseudo_inverse(node.D);
-  const Eigen::MatrixXd lame = Square::Identity() - node.D_inverse * node.D; // multipliers without a force
-  node.alone = lame * pseudo_inverse(node.Z * lame);
-  const double stiffness = node.K.trace() / 3, kappa = stiffness / force_per_multiplier;
-
-  Eigen::Matrix<double, 6, 3> both;
-  both << kappa * node.Z.transpose(), node.H.transpose();
-  const Eigen::HouseholderQR<Eigen::Matrix<double, 6, 3>> qr(both);
-  const Square R = qr.matrixQR().topRows<3>().template triangularView<Eigen::Upper>();
-  const Eigen::Matrix<double, 6, 3> Q = qr.householderQ() * Eigen::Matrix<double, 6, 3>::Identity();
-  const Eigen::JacobiSVD<Square> svd(Q.topRows<3>().transpose(), Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Square &U = svd.matrixU(), &V = svd.matrixV();
-  const Square combine = U.transpose() * R.transpose().inverse(); // of the conditions
-
-  const auto held = (svd.singularValues().array() <= held_below).count(); // the last ones
-  for (Eigen::Index j = 0; j < 3 - held; ++j) {
-    const Eigen::Vector3d v = V.col(j);
-    node.force += v * v.transpose();
-    node.condition -= v * (v.dot(node.D * v) * kappa / svd.singularValues()[j]) * combine.row(j);
-  }
-  node.keeps = Matrix3::Identity();
-  if (held == 0) return;
-  const Eigen::MatrixXd N = combine.bottomRows(held) * node.H, N_inverse = pseudo_inverse(N);
-  const Square holding = N_inverse * N; // projection on the directions that are held
-  node.holds = N_inverse * combine.bottomRows(held);
-  node.keeps -= holding;
-  node.idle = stiffness * V.rightCols(held) * V.rightCols(held).transpose() * holding;
-}
-
-/// The node's three rows of forces (kind 0) or conditions (1) into its blocks.
-PetscErrorCode Condensation::ReadRows(int kind, const ColumnSets &sets, NodeBlocks &node)
-{
+  std::vector<PetscInt> s, l, i;
+  PetscInt last;
   PetscFunctionBegin;
-  for (int i = 0; i < 3; ++i) {
-    const PetscInt row = (kind == 0 ? node.slave : node.multiplier) + i, *column;
-    const PetscScalar *value;
-    PetscInt entries;
-    PetscCall(MatGetRow(A, row, &entries, &column, &value));
-    for (PetscInt k = 0; k < entries; ++k) {
-      const PetscInt to_slave = column[k] - node.slave, to_multiplier = column[k] - node.multiplier;
-      if (node.slave >= 0 && to_slave >= 0 && to_slave < 3)
-        (kind == 0 ? node.K : node.H)(i, to_slave) = value[k];
-      else if (to_multiplier >= 0 && to_multiplier < 3)
-        (kind == 0 ? node.D : node.Z)(i, to_multiplier) = value[k];
-      else if (kind == 1 && value[k] != 0 && !among(sets.slaves, column[k]) && !among(sets.multipliers, column[k])) {
-        auto place = std::find(node.master.begin(), node.master.end(), column[k]);
-        if (place == node.master.end()) {
-          node.master.push_back(column[k]);
-          met.grown = true;
-          node.B.conservativeResize(3, node.B.cols() + 1);
-          node.B.rightCols<1>().setZero();
-          place = std::prev(node.master.end());
-        }
-        node.B(i, place - node.master.begin()) = value[k];
-      }
-    }
-    PetscCall(MatRestoreRow(A, row, &entries, &column, &value));
-  }
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode Condensation::ReadNodes()
-{
-  ColumnSets sets;
-  PetscFunctionBegin;
-  PetscCall(GatherFirsts(comm_of(A), unknowns->slave, sets.slaves));
-  PetscCall(GatherFirsts(comm_of(A), unknowns->multiplier, sets.multipliers));
+  const MPI_Comm comm = comm_of(A);
+  parts = {};
   nodes.assign(unknowns->multiplier.size(), {});
   for (std::size_t a = 0; a < nodes.size(); ++a) {
     nodes[a].slave = unknowns->slave[a];
     nodes[a].multiplier = unknowns->multiplier[a];
-    nodes[a].master = met.masters[a];
-    nodes[a].B.setZero(3, static_cast<Eigen::Index>(met.masters[a].size()));
-    for (int kind = nodes[a].slave < 0 ? 1 : 0; kind < 2; ++kind) PetscCall(ReadRows(kind, sets, nodes[a]));
-    met.masters[a] = nodes[a].master;
-    Classify(nodes[a]);
-  }
-  PetscFunctionReturn(0);
-}
-
-/// P: of all unknowns, by the displacements.
-PetscErrorCode Condensation::BuildRight(IS displacements)
-{
-  MatHandle square;
-  IsHandle all;
-  PetscInt first, last;
-  PetscFunctionBegin;
-  PetscCall(MatGetOwnershipRange(A, &first, &last));
-  std::vector<PetscInt> per_row(last - first, 0);
-  for (PetscInt row : unknowns->displacement) per_row[row - first] = 1;
-  for (const NodeBlocks &node : nodes)
-    for (int i = 0; i < 3 && node.slave >= 0; ++i)
-      per_row[node.slave + i - first] = 3 + static_cast<PetscInt>(node.master.size());
-  PetscCall(CreateLike(A, per_row, square));
-  for (PetscInt row : unknowns->displacement)
-    if (per_row[row - first] == 1) PetscCall(MatSetValue(square, row, row, 1, INSERT_VALUES));
-  for (const NodeBlocks &node : nodes) {
-    if (node.slave < 0) continue;
-    PetscCall(SetBlock(square, node.slave, node.slave, node.keeps, INSERT_VALUES));
-    const Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> W = -node.holds * node.B;
-    const PetscInt own[] = {node.slave, node.slave + 1, node.slave + 2};
-    PetscCall(MatSetValues(square, 3, own, static_cast<PetscInt>(node.master.size()), node.master.data(), W.data(),
-                           INSERT_VALUES));
-  }
-  PetscCall(Assemble(square));
-  PetscCall(ISCreateStride(comm_of(A), last - first, first, 1, all.put()));
-  PetscCall(MatCreateSubMatrix(square, all, displacements, MAT_INITIAL_MATRIX, P.put()));
-  PetscFunctionReturn(0);
-}
-
-/// -G D^-1: what displacements' equations take of the slave's forces; n rows as displacements, columns as A.
-PetscErrorCode Condensation::Eliminate(IS displacements, MatHandle &eliminated)
-{
-  MatHandle square, inverse, G;
-  IsHandle all, multipliers;
-  PetscInt first, last;
-  PetscFunctionBegin;
-  PetscCall(MatGetOwnershipRange(A, &first, &last));
-  std::vector<PetscInt> per_row(last - first, 0), conditions;
-  for (const NodeBlocks &node : nodes)
-    for (int i = 0; i < 3; ++i) {
-      conditions.push_back(node.multiplier + i);
-      if (node.slave >= 0) per_row[node.multiplier + i - first] = 3;
+    for (int k = 0; k < 3; ++k) l.push_back(nodes[a].multiplier + k);
+    for (int k = 0; k < 3 && nodes[a].whole(); ++k) {
+      s.push_back(nodes[a].slave + k);
+      i.push_back(nodes[a].slave + k);
     }
-  PetscCall(CreateLike(A, per_row, square));
-  for (const NodeBlocks &node : nodes) {
-    const Matrix3 minus = -node.D_inverse;
-    if (node.slave >= 0) PetscCall(SetBlock(square, node.multiplier, node.slave, minus, INSERT_VALUES));
+    for (int k = 0; k < 3; ++k) i.push_back(nodes[a].multiplier + k);
   }
-  PetscCall(Assemble(square));
-  PetscCall(ISCreateStride(comm_of(A), last - first, first, 1, all.put()));
-  PetscCall(CreateIs(comm_of(A), conditions, multipliers));
-  PetscCall(MatCreateSubMatrix(A, displacements, multipliers, MAT_INITIAL_MATRIX, G.put()));
-  PetscCall(MatCreateSubMatrix(square, multipliers, all, MAT_INITIAL_MATRIX, inverse.put()));
-  PetscCall(MatMatMult(G, inverse, MAT_INITIAL_MATRIX, PETSC_DEFAULT, eliminated.put()));
+  PetscCall(columns.Gather(comm, *unknowns));
+  slave_at.clear();
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    if (nodes[a].whole()) slave_at.emplace(columns.reduced(nodes[a].slave), a);
+  PetscCall(MatGetOwnershipRange(A, &first, &last));
+  const auto create = [comm](const std::vector<PetscInt> &list, IsHandle &is) {
+    return ISCreateGeneral(comm, static_cast<PetscInt>(list.size()), list.data(), PETSC_COPY_VALUES, is.put());
+  };
+  PetscCall(create(unknowns->displacement, parts.u));
+  PetscCall(create(s, parts.s));
+  PetscCall(create(l, parts.l));
+  PetscCall(create(i, parts.i));
   PetscFunctionReturn(0);
 }
 
-/// Adds the columns of M's entries in this row to `met`, and says so.
-PetscErrorCode Condensation::Remember(Mat M, PetscInt row, std::vector<PetscInt> &met_there)
+/// P: of the slaves' displacements, by all displacements.
+PetscErrorCode Condensation::BuildRight()
+{
+  PetscInt row;
+  PetscFunctionBegin;
+  if (!static_cast<Mat>(parts.P)) {
+    std::vector<PetscInt> per_row;
+    for (const InterfaceNode &node : nodes)
+      for (int k = 0; k < 3 && node.whole(); ++k) per_row.push_back(3 + static_cast<PetscInt>(node.master.size()));
+    PetscCall(CreatePart(comm_of(A), static_cast<PetscInt>(per_row.size()),
+                         static_cast<PetscInt>(unknowns->displacement.size()), per_row, parts.P));
+  }
+  PetscCall(MatGetOwnershipRange(parts.P, &row, nullptr));
+  for (const InterfaceNode &node : nodes) {
+    if (!node.whole()) continue;
+    const InterfaceNode::Matrix3 own = node.keeps - InterfaceNode::Matrix3::Identity();
+    PetscCall(SetBlock(parts.P, row, columns.reduced(node.slave), own));
+    const Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> W = -node.holds * node.B;
+    std::vector<PetscInt> masters;
+    for (PetscInt column : node.master) masters.push_back(columns.reduced(column));
+    const PetscInt rows[] = {row, row + 1, row + 2};
+    PetscCall(
+        MatSetValues(parts.P, 3, rows, static_cast<PetscInt>(masters.size()), masters.data(), W.data(), INSERT_VALUES));
+    row += 3;
+  }
+  PetscCall(Assemble(parts.P));
+  PetscFunctionReturn(0);
+}
+
+/// -G D^-1: what displacements' equations take of the slave's forces.
+PetscErrorCode Condensation::Eliminate()
+{
+  PetscInt row, column;
+  PetscFunctionBegin;
+  if (!static_cast<Mat>(parts.minus_D_inverse)) {
+    PetscInt interface_rows;
+    PetscCall(ISGetLocalSize(parts.i, &interface_rows));
+    const std::vector<PetscInt> per_row(3 * nodes.size(), 3);
+    PetscCall(
+        CreatePart(comm_of(A), static_cast<PetscInt>(per_row.size()), interface_rows, per_row, parts.minus_D_inverse));
+  }
+  PetscCall(MatGetOwnershipRange(parts.minus_D_inverse, &row, nullptr));
+  PetscCall(MatGetOwnershipRangeColumn(parts.minus_D_inverse, &column, nullptr));
+  for (const InterfaceNode &node : nodes) {
+    const InterfaceNode::Matrix3 minus = -node.D_inverse;
+    if (node.whole()) PetscCall(SetBlock(parts.minus_D_inverse, row, column, minus));
+    row += 3;
+    column += node.whole() ? 6 : 3;
+  }
+  PetscCall(Assemble(parts.minus_D_inverse));
+  PetscCall(Multiply(parts.A_ul, parts.minus_D_inverse, parts.eliminated));
+  PetscFunctionReturn(0);
+}
+
+/// L: equations of the displacements, by those of the interface.
+PetscErrorCode Condensation::BuildLeft()
 {
   const PetscInt *column;
   const PetscScalar *value;
-  PetscInt size;
+  PetscInt row, own_column, entries;
   PetscFunctionBegin;
-  PetscCall(MatGetRow(M, row, &size, &column, &value));
-  for (PetscInt k = 0; k < size; ++k) {
-    if (value[k] == 0 || std::find(met_there.begin(), met_there.end(), column[k]) != met_there.end()) continue;
-    met_there.push_back(column[k]);
-    met.grown = true;
-  }
-  PetscCall(MatRestoreRow(M, row, &size, &column, &value));
-  PetscFunctionReturn(0);
-}
-
-/// L: equations of the displacements, by all equations.
-PetscErrorCode Condensation::BuildLeft(IS displacements)
-{
-  MatHandle square, eliminated;
-  IsHandle all;
-  PetscInt first, last, reduced;
-  PetscFunctionBegin;
-  PetscCall(Eliminate(displacements, eliminated));
-  PetscCall(MatGetOwnershipRange(A, &first, &last));
-  PetscCall(MatGetOwnershipRange(eliminated, &reduced, nullptr));
-  std::vector<PetscInt> per_row(last - first, 0);
-  std::vector<bool> of_slave(last - first, false);
-  for (const NodeBlocks &node : nodes)
-    for (int i = 0; i < 3 && node.slave >= 0; ++i) of_slave[node.slave + i - first] = true;
-  for (std::size_t r = 0; r < unknowns->displacement.size(); ++r) {
-    const PetscInt row = unknowns->displacement[r] - first;
-    per_row[row] = of_slave[row] ? 6 : 1;
-    if (!of_slave[row]) PetscCall(Remember(eliminated, reduced + static_cast<PetscInt>(r), met.slaves[r]));
-    if (!of_slave[row]) per_row[row] += static_cast<PetscInt>(met.slaves[r].size());
-  }
-  PetscCall(CreateLike(A, per_row, square));
-  for (std::size_t r = 0; r < unknowns->displacement.size(); ++r) {
-    const PetscInt row = unknowns->displacement[r], *column;
-    const PetscScalar *value;
-    PetscInt size;
-    if (of_slave[row - first]) continue;
-    PetscCall(MatSetValue(square, row, row, 1, INSERT_VALUES));
-    for (PetscInt k : met.slaves[r]) PetscCall(MatSetValue(square, row, k, 0, INSERT_VALUES));
-    PetscCall(MatGetRow(eliminated, reduced + static_cast<PetscInt>(r), &size, &column, &value));
-    for (PetscInt k = 0; k < size; ++k)
-      if (value[k] != 0) PetscCall(MatSetValue(square, row, column[k], value[k], INSERT_VALUES));
-    PetscCall(MatRestoreRow(eliminated, reduced + static_cast<PetscInt>(r), &size, &column, &value));
-  }
-  for (const NodeBlocks &node : nodes) {
-    if (node.slave < 0) continue;
-    PetscCall(SetBlock(square, node.slave, node.slave, node.force, INSERT_VALUES));
-    PetscCall(SetBlock(square, node.slave, node.multiplier, node.condition, INSERT_VALUES));
-  }
-  PetscCall(Assemble(square));
-  PetscCall(ISCreateStride(comm_of(A), last - first, first, 1, all.put()));
-  PetscCall(MatCreateSubMatrix(square, displacements, all, MAT_INITIAL_MATRIX, L.put()));
-  PetscFunctionReturn(0);
-}
-
-/// S, in its old place where the pattern has not changed.
-PetscErrorCode Condensation::Reduce()
-{
-  MatHandle AP;
-  Mat reduced = S;
-  const bool anew = !reduced;
-  PetscInt first;
-  PetscFunctionBegin;
-  PetscCall(MatMatMult(A, P, MAT_INITIAL_MATRIX, PETSC_DEFAULT, AP.put()));
-  PetscCall(MatMatMult(L, AP, anew ? MAT_INITIAL_MATRIX : MAT_REUSE_MATRIX, PETSC_DEFAULT, anew ? S.put() : &reduced));
-  PetscCall(MatGetOwnershipRange(S, &first, nullptr));
-  for (const NodeBlocks &node : nodes) {
-    if (node.slave < 0) continue;
-    const auto place = std::lower_bound(unknowns->displacement.begin(), unknowns->displacement.end(), node.slave);
-    const auto row = first + static_cast<PetscInt>(place - unknowns->displacement.begin());
-    PetscCall(SetBlock(S, row, row, node.idle, ADD_VALUES));
-  }
-  PetscCall(Assemble(S));
-  if (anew && unknowns->whole_nodes) {
-    MatNullSpace rigid;
-    PetscCall(MatSetBlockSize(S, 3));
-    PetscCall(MatNullSpaceCreateRigidBody(unknowns->place, &rigid));
-    PetscCall(MatSetNearNullSpace(S, rigid));
-    PetscCall(MatNullSpaceDestroy(&rigid));
-  }
-  PetscFunctionReturn(0);
-}
-
-/// The parts of A that couple the slave's unknowns with all others.
-PetscErrorCode Condensation::CutInterface()
-{
-  IsHandle all, interface, slaves;
-  std::vector<PetscInt> interface_rows, slave_columns;
-  PetscInt first, last;
-  PetscFunctionBegin;
-  for (const NodeBlocks &node : nodes)
-    for (int i = 0; i < 6; ++i) {
-      if (i < 3 && node.slave < 0) continue;
-      interface_rows.push_back(i < 3 ? node.slave + i : node.multiplier + i - 3);
-      if (i < 3) slave_columns.push_back(node.slave + i);
+  PetscCall(Eliminate());
+  PetscCall(MatGetOwnershipRange(parts.eliminated, &row, nullptr));
+  PetscCall(MatGetOwnershipRangeColumn(parts.eliminated, &own_column, nullptr));
+  const auto displacements = static_cast<PetscInt>(unknowns->displacement.size());
+  std::vector<PetscInt> slave_rows;
+  for (const InterfaceNode &node : nodes)
+    for (int k = 0; k < 3 && node.whole(); ++k) slave_rows.push_back(columns.reduced(node.slave) + k);
+  std::vector<bool> of_slave(displacements, false);
+  for (PetscInt r : slave_rows) of_slave[r - row] = true;
+  if (!static_cast<Mat>(parts.L)) {
+    std::vector<PetscInt> per_row(displacements, 6);
+    for (PetscInt r = 0; r < displacements; ++r) {
+      if (of_slave[r]) continue;
+      PetscCall(MatGetRow(parts.eliminated, row + r, &per_row[r], nullptr, nullptr));
+      entries = per_row[r];
+      PetscCall(MatRestoreRow(parts.eliminated, row + r, &entries, nullptr, nullptr));
     }
-  PetscCall(MatGetOwnershipRange(A, &first, &last));
-  PetscCall(ISCreateStride(comm_of(A), last - first, first, 1, all.put()));
-  PetscCall(CreateIs(comm_of(A), interface_rows, interface));
-  PetscCall(CreateIs(comm_of(A), slave_columns, slaves));
-  PetscCall(MatCreateSubMatrix(A, interface, all, MAT_INITIAL_MATRIX, equations.put()));
-  PetscCall(MatCreateSubMatrix(A, all, slaves, MAT_INITIAL_MATRIX, prescribed.put()));
-  PetscCall(MatCreateVecs(equations, nullptr, on_interface.put()));
-  PetscCall(MatCreateVecs(prescribed, on_slave.put(), residual.put()));
-  PetscCall(VecDuplicate(residual, held.put()));
+    PetscInt interface_rows;
+    PetscCall(ISGetLocalSize(parts.i, &interface_rows));
+    PetscCall(CreatePart(comm_of(A), displacements, interface_rows, per_row, parts.L));
+  }
+  for (PetscInt r = row; r < row + displacements; ++r) {
+    if (of_slave[r - row]) continue;
+    PetscCall(MatGetRow(parts.eliminated, r, &entries, &column, &value));
+    PetscCall(MatSetValues(parts.L, 1, &r, entries, column, value, INSERT_VALUES));
+    PetscCall(MatRestoreRow(parts.eliminated, r, &entries, &column, &value));
+  }
+  for (const InterfaceNode &node : nodes) {
+    if (node.whole()) {
+      const InterfaceNode::Matrix3 force = node.force - InterfaceNode::Matrix3::Identity();
+      PetscCall(SetBlock(parts.L, columns.reduced(node.slave), own_column, force));
+      PetscCall(SetBlock(parts.L, columns.reduced(node.slave), own_column + 3, node.condition));
+    }
+    own_column += node.whole() ? 6 : 3;
+  }
+  PetscCall(Assemble(parts.L));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode Condensation::Read(Mat given, const std::shared_ptr<const ContactUnknowns> &list, bool &anew)
 {
-  IsHandle displacements;
   PetscObjectState pattern_now;
   PetscFunctionBegin;
-  unknowns = list;
   PetscCall(MatGetNonzeroState(given, &pattern_now));
-  if (given != static_cast<Mat>(A) || pattern_now != pattern) met = {};
+  anew = given != static_cast<Mat>(A) || list != unknowns || pattern_now != pattern;
   pattern = pattern_now;
-  met.masters.resize(unknowns->multiplier.size());
-  met.slaves.resize(unknowns->displacement.size());
-  met.grown = !static_cast<Mat>(S) || given != static_cast<Mat>(A);
+  unknowns = list;
   PetscCall(PetscObjectReference(reinterpret_cast<PetscObject>(given)));
   *A.put() = given;
-  PetscCall(ReadNodes());
-  PetscCall(CreateIs(comm_of(A), unknowns->displacement, displacements));
-  PetscCall(BuildRight(displacements));
-  PetscCall(BuildLeft(displacements));
-  PetscCallMPI(MPI_Allreduce(&met.grown, &anew, 1, MPI_CXX_BOOL, MPI_LOR, comm_of(A)));
-  PetscCall(CutInterface());
-  if (anew) S.reset();
+  if (anew) PetscCall(List());
+  for (InterfaceNode &node : nodes) PetscCall(node.Read(A, columns));
+  PetscFunctionReturn(0);
+}
+
+/// Appends a row of A_uu.
+PetscErrorCode Condensation::AppendOwn(PetscInt row, SparseRow &entries)
+{
+  PetscInt size;
+  const PetscInt *column;
+  const PetscScalar *value;
+  PetscFunctionBegin;
+  PetscCall(MatGetRow(A, row, &size, &column, &value));
+  const std::vector<PetscInt> &multipliers = columns.multipliers;
+  auto next = size == 0 ? multipliers.end() : std::lower_bound(multipliers.begin(), multipliers.end(), *column - 2);
+  for (PetscInt k = 0; k < size; ++k) { // rising columns
+    while (next != multipliers.end() && *next + 3 <= column[k]) ++next;
+    if (next != multipliers.end() && *next <= column[k]) continue;
+    entries.emplace_back(column[k] - 3 * static_cast<PetscInt>(next - multipliers.begin()), value[k]);
+  }
+  PetscCall(MatRestoreRow(A, row, &size, &column, &value));
+  PetscFunctionReturn(0);
+}
+
+/// Row k of this rank's part of S, by rising columns.
+PetscErrorCode Condensation::ReducedRow(std::size_t k, SparseRow &entries)
+{
+  PetscInt size;
+  const PetscInt *column;
+  const PetscScalar *value;
+  const PetscInt row = first_reduced + static_cast<PetscInt>(k);
+  PetscFunctionBegin;
+  entries.clear();
+  PetscCall(AppendOwn(unknowns->displacement[k], entries));
+  const std::size_t own = entries.size();
+  for (Mat part : std::initializer_list<Mat>{parts.LA_iu, parts.A_usP, parts.LA_isP}) {
+    PetscCall(MatGetRow(part, row, &size, &column, &value));
+    for (PetscInt j = 0; j < size; ++j) entries.emplace_back(column[j], value[j]);
+    PetscCall(MatRestoreRow(part, row, &size, &column, &value));
+  }
+  if (const auto next = slave_at.upper_bound(row); next != slave_at.begin()) {
+    const auto &[start, a] = *std::prev(next);
+    for (int j = 0; j < 3 && row - start < 3; ++j) entries.emplace_back(start + j, nodes[a].idle(row - start, j));
+  }
+  if (entries.size() == own) PetscFunctionReturn(0);
+  std::sort(entries.begin(), entries.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+  auto last = entries.begin();
+  for (auto next = last + 1; next != entries.end(); ++next)
+    if (next->first == last->first)
+      last->second += next->second;
+    else
+      *++last = *next;
+  entries.erase(last + 1, entries.end());
+  PetscFunctionReturn(0);
+}
+
+/// S with room for its rows.
+PetscErrorCode Condensation::CreateReduced()
+{
+  SparseRow entries;
+  MatNullSpace rigid;
+  PetscFunctionBegin;
+  const auto rows = static_cast<PetscInt>(unknowns->displacement.size());
+  std::vector<PetscInt> on(rows), off(rows);
+  for (PetscInt k = 0; k < rows; ++k) {
+    PetscCall(ReducedRow(k, entries));
+    on[k] = static_cast<PetscInt>(std::count_if(entries.begin(), entries.end(), [&](const auto &entry) {
+      return entry.first >= first_reduced && entry.first < first_reduced + rows;
+    }));
+    off[k] = static_cast<PetscInt>(entries.size()) - on[k];
+  }
+  PetscCall(MatCreate(comm_of(A), parts.S.put()));
+  PetscCall(MatSetSizes(parts.S, rows, rows, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetType(parts.S, MATAIJ));
+  if (unknowns->whole_nodes) PetscCall(MatSetBlockSize(parts.S, 3));
+  PetscCall(MatSeqAIJSetPreallocation(parts.S, 0, on.data()));
+  PetscCall(MatMPIAIJSetPreallocation(parts.S, 0, on.data(), 0, off.data()));
+  PetscCall(MatSetOption(parts.S, MAT_NO_OFF_PROC_ENTRIES, PETSC_TRUE));
+  if (!unknowns->whole_nodes) PetscFunctionReturn(0);
+  PetscCall(MatNullSpaceCreateRigidBody(unknowns->place, &rigid));
+  PetscCall(MatSetNearNullSpace(parts.S, rigid));
+  PetscCall(MatNullSpaceDestroy(&rigid));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Condensation::Reduce()
+{
+  SparseRow entries;
+  std::vector<PetscInt> column;
+  std::vector<PetscScalar> value;
+  PetscFunctionBegin;
+  PetscCall(Cut(A, parts.u, parts.s, parts.A_us));
+  PetscCall(Cut(A, parts.u, parts.l, parts.A_ul));
+  PetscCall(Cut(A, parts.i, parts.u, parts.A_iu));
+  PetscCall(Cut(A, parts.i, parts.s, parts.A_is));
+  PetscCall(BuildRight());
+  PetscCall(BuildLeft());
+  PetscCall(Multiply(parts.L, parts.A_iu, parts.LA_iu));
+  PetscCall(Multiply(parts.L, parts.A_is, parts.LA_is));
+  PetscCall(Multiply(parts.A_us, parts.P, parts.A_usP));
+  PetscCall(Multiply(parts.LA_is, parts.P, parts.LA_isP));
+  PetscCall(MatGetOwnershipRange(parts.L, &first_reduced, nullptr));
+  if (!static_cast<Mat>(parts.S)) {
+    PetscCall(MatCreateVecs(parts.A_is, parts.of_slaves.put(), parts.of_interface.put()));
+    PetscCall(MatCreateVecs(parts.A_iu, parts.displacements.put(), nullptr));
+    PetscCall(CreateReduced());
+  }
+  for (std::size_t k = 0; k < unknowns->displacement.size(); ++k) {
+    const PetscInt row = first_reduced + static_cast<PetscInt>(k);
+    PetscCall(ReducedRow(k, entries));
+    column.clear();
+    value.clear();
+    for (const auto &[c, v] : entries) {
+      column.push_back(c);
+      value.push_back(v);
+    }
+    PetscCall(MatSetValues(parts.S, 1, &row, static_cast<PetscInt>(column.size()), column.data(), value.data(),
+                           INSERT_VALUES));
+  }
+  PetscCall(Assemble(parts.S));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode Condensation::Restrict(Vec f, Vec g)
 {
   const PetscScalar *values;
-  PetscScalar *w, *s;
-  PetscInt first, k = 0;
+  PetscScalar *of_displacements, *w, *of_interface;
   PetscFunctionBegin;
-  PetscCall(VecGetOwnershipRange(f, &first, nullptr));
-  PetscCall(VecZeroEntries(held));
   PetscCall(VecGetArrayRead(f, &values));
-  PetscCall(VecGetArray(held, &w));
-  PetscCall(VecGetArray(on_slave, &s));
-  for (const NodeBlocks &node : nodes) {
-    if (node.slave < 0) continue;
-    Eigen::Map<Eigen::Vector3d> u(w + node.slave - first);
-    u = node.holds * Eigen::Map<const Eigen::Vector3d>(values + node.multiplier - first);
-    Eigen::Map<Eigen::Vector3d>(s + k) = u;
-    k += 3;
+  PetscCall(VecGetArrayWrite(g, &of_displacements));
+  PetscCall(VecGetArrayWrite(parts.of_slaves, &w));
+  PetscCall(VecGetArrayWrite(parts.of_interface, &of_interface));
+  for (std::size_t k = 0; k < unknowns->displacement.size(); ++k)
+    of_displacements[k] = values[unknowns->displacement[k] - first];
+  PetscScalar *slave = w, *equation = of_interface;
+  for (const InterfaceNode &node : nodes) {
+    const Eigen::Map<const Eigen::Vector3d> condition(values + node.multiplier - first);
+    if (node.whole()) {
+      const Eigen::Vector3d held = node.holds * condition;
+      equation = std::copy_n(values + node.slave - first, 3, equation);
+      slave = std::copy_n(held.data(), 3, slave);
+    }
+    equation = std::copy_n(condition.data(), 3, equation);
   }
-  PetscCall(VecRestoreArray(on_slave, &s));
-  PetscCall(VecRestoreArray(held, &w));
+  PetscCall(VecRestoreArrayWrite(parts.of_interface, &of_interface));
+  PetscCall(VecRestoreArrayWrite(parts.of_slaves, &w));
+  PetscCall(VecRestoreArrayWrite(g, &of_displacements));
   PetscCall(VecRestoreArrayRead(f, &values));
-  PetscCall(MatMult(prescribed, on_slave, residual));
-  PetscCall(VecAYPX(residual, -1, f));
-  PetscCall(MatMult(L, residual, g));
+  PetscCall(VecScale(parts.of_slaves, -1));
+  PetscCall(MatMultAdd(parts.L, parts.of_interface, g, g));
+  PetscCall(MatMultAdd(parts.A_us, parts.of_slaves, g, g));
+  PetscCall(MatMultAdd(parts.LA_is, parts.of_slaves, g, g));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode Condensation::Extend(Vec f, Vec y, Vec x)
 {
-  const PetscScalar *values, *forces;
-  PetscScalar *solution;
-  PetscInt first, k = 0;
+  const PetscScalar *values, *forces, *change;
+  PetscScalar *displacement, *solution;
   PetscFunctionBegin;
-  PetscCall(VecGetOwnershipRange(f, &first, nullptr));
-  PetscCall(MatMultAdd(P, y, held, x));
-  PetscCall(MatMult(equations, x, on_interface));
+  PetscCall(MatMult(parts.P, y, parts.of_slaves));
+  PetscCall(VecCopy(y, parts.displacements));
   PetscCall(VecGetArrayRead(f, &values));
-  PetscCall(VecGetArrayRead(on_interface, &forces));
-  PetscCall(VecGetArray(x, &solution));
+  PetscCall(VecGetArray(parts.displacements, &displacement));
+  PetscCall(VecGetArrayRead(parts.of_slaves, &change));
   const auto given = [&](PetscInt row) { return Eigen::Map<const Eigen::Vector3d>(values + row - first); };
-  for (const NodeBlocks &node : nodes) {
+  for (const PetscScalar *held = change; const InterfaceNode &node : nodes) {
+    if (!node.whole()) continue;
+    Eigen::Map<Eigen::Vector3d>(displacement + columns.reduced(node.slave) - first_reduced) +=
+        Eigen::Map<const Eigen::Vector3d>(held) + node.holds * given(node.multiplier);
+    held += 3;
+  }
+  PetscCall(VecRestoreArrayRead(parts.of_slaves, &change));
+  PetscCall(VecRestoreArray(parts.displacements, &displacement));
+  PetscCall(MatMult(parts.A_iu, parts.displacements, parts.of_interface));
+  PetscCall(VecGetArrayRead(parts.displacements, &change));
+  PetscCall(VecGetArrayRead(parts.of_interface, &forces));
+  PetscCall(VecGetArrayWrite(x, &solution));
+  for (std::size_t k = 0; k < unknowns->displacement.size(); ++k)
+    solution[unknowns->displacement[k] - first] = change[k];
+  for (const PetscScalar *force = forces; const InterfaceNode &node : nodes) {
     Eigen::Map<Eigen::Vector3d> multiplier(solution + node.multiplier - first);
-    if (node.slave >= 0) {
-      multiplier = node.D_inverse * (given(node.slave) - Eigen::Map<const Eigen::Vector3d>(forces + k));
-      k += 3;
+    multiplier.setZero();
+    if (node.whole()) {
+      multiplier = node.D_inverse * (given(node.slave) - Eigen::Map<const Eigen::Vector3d>(force));
+      force += 3;
     }
     const Eigen::Vector3d condition =
-        given(node.multiplier) - Eigen::Map<const Eigen::Vector3d>(forces + k) - node.Z * multiplier;
+        given(node.multiplier) - Eigen::Map<const Eigen::Vector3d>(force) - node.Z * multiplier;
     multiplier += node.alone * condition;
-    k += 3;
+    force += 3;
   }
-  PetscCall(VecRestoreArray(x, &solution));
-  PetscCall(VecRestoreArrayRead(on_interface, &forces));
+  PetscCall(VecRestoreArrayWrite(x, &solution));
+  PetscCall(VecRestoreArrayRead(parts.of_interface, &forces));
+  PetscCall(VecRestoreArrayRead(parts.displacements, &change));
   PetscCall(VecRestoreArrayRead(f, &values));
   PetscFunctionReturn(0);
 }

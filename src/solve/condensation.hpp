@@ -13,90 +13,80 @@
 ///    say which directions are held (closed, sticking: Z = 0 there) and which are free. A free direction keeps its
 ///    force row, its multiplier replaced by the condition; a held one gives its displacement, u_s = X u_f + W u_r +
 ///    w(f_C).
-/// 3. S = L A P, L the left combinations of 1 and 2, P = [1; X X^T, W]. Held directions of slave nodes remain as
-///    unknowns that nothing acts on, so that every node has three.
+/// 3. S = (E + L) A (E' + P) with E and E' = E^T what takes displacements from all unknowns. L, P have entries for the
+///    interface only: with u all displacements and i the equations F_s, C of the interface,
+///
+///        S = A_uu + L A_iu + (A_us + L A_is) P        (3.15)
+///
+///    so that nothing the size of A is made beside S. Held directions of slave nodes remain as unknowns that nothing
+///    acts on, so that every node has three.
 ///
 /// Eliminating multipliers alone (1) leaves a spectrum on which smoothers fail; with 2 it is that of an elastic body.
 /// What is left out, H between neighbours, is small of the order of gaps: S is for preconditioning.
+///
+/// All patterns follow from that of A, whatever the values: S, and what inner solvers have derived from it, lasts as
+/// long as A's pattern. (With entries only where nodes have met S is smaller, but while surfaces move each Newton
+/// iteration makes new ones meet: multigrid was set up anew each time, a fifth of the time at 1.15 million unknowns.)
 #pragma once
 
-#include "support/petsc_handles.hpp"
+#include "solve/interface_node.hpp"
 
-#include <Eigen/Core>
-
+#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace tribogel
 {
 
-/// Which unknowns are what, owned by this rank, by global index.
-struct ContactUnknowns {
-  std::vector<PetscInt> displacement;      ///< all of them
-  std::vector<PetscInt> slave, multiplier; ///< first of three, of each node with multiplier; slave -1 if prescribed
-  bool whole_nodes = true;                 ///< every node has three displacements or none, on all ranks
-  VecHandle place;                         ///< of the node of each displacement, deformed [mm]; block size 3
-};
-
 class Condensation
 {
 public:
-  /// Whether reduced() will be another matrix than before (`anew`), or the same one with new values. Collective.
+  /// Whether reduced() will be another matrix than before (`anew`), or the same one with new values; whoever holds the
+  /// old one lets go before Reduce. Collective.
   PetscErrorCode Read(Mat A, const std::shared_ptr<const ContactUnknowns> &unknowns, bool &anew);
 
-  /// Computes reduced(); where it is another matrix than before, whoever holds the old one lets go first. Collective.
+  /// Computes reduced(). Collective.
   PetscErrorCode Reduce();
 
   /// Right-hand side of S y = g for A x = f, and x from y. Collective.
   PetscErrorCode Restrict(Vec f, Vec g);
   PetscErrorCode Extend(Vec f, Vec y, Vec x);
 
-  Mat reduced() const { return S; } ///< has the rigid body modes as its near null space
+  Mat reduced() const { return parts.S; } ///< has the rigid body modes as its near null space
 
 private:
-  using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  using IsHandle = Handle<IS, ISDestroy>;
+  using SparseRow = std::vector<std::pair<PetscInt, PetscScalar>>; ///< columns and values
 
-  /// Of one slave node, all 3 x 3.
-  struct NodeBlocks {
-    PetscInt slave, multiplier;
-    Matrix3 K = Matrix3::Zero(), D = Matrix3::Zero(), H = Matrix3::Zero(), Z = Matrix3::Zero();
-    Matrix3 D_inverse = Matrix3::Zero();                          ///< pseudo-inverse
-    Matrix3 force = Matrix3::Zero(), condition = Matrix3::Zero(); ///< what L takes of F_s and C
-    Matrix3 keeps = Matrix3::Zero();                              ///< X X^T
-    Matrix3 holds = Matrix3::Zero();                              ///< w: u_s of the held directions from C - B u_r
-    Matrix3 idle = Matrix3::Zero();                               ///< equation of what is held, so that S is regular
-    Matrix3 alone = Matrix3::Zero(); ///< multiplier from its own condition, where no force depends on it
-    std::vector<PetscInt> master;    ///< columns of B
-    Eigen::Matrix<double, 3, Eigen::Dynamic> B;
-  };
-
-  /// First indices of all ranks' nodes, sorted.
-  struct ColumnSets {
-    std::vector<PetscInt> slaves, multipliers;
-  };
-
-  PetscErrorCode ReadRows(int kind, const ColumnSets &sets, NodeBlocks &node);
-  PetscErrorCode ReadNodes();
-  PetscErrorCode BuildRight(IS displacements);
-  PetscErrorCode Eliminate(IS displacements, MatHandle &eliminated);
-  PetscErrorCode Remember(Mat M, PetscInt row, std::vector<PetscInt> &met_there);
-  PetscErrorCode BuildLeft(IS displacements);
-  PetscErrorCode CutInterface();
-  static void Classify(NodeBlocks &node);
+  PetscErrorCode List();
+  PetscErrorCode BuildRight();
+  PetscErrorCode Eliminate();
+  PetscErrorCode BuildLeft();
+  PetscErrorCode AppendOwn(PetscInt row, SparseRow &entries);
+  PetscErrorCode ReducedRow(std::size_t k, SparseRow &entries);
+  PetscErrorCode CreateReduced();
 
   std::shared_ptr<const ContactUnknowns> unknowns;
-  MatHandle A, P, L, S;
-  PetscObjectState pattern = 0;    ///< of A
-  MatHandle equations, prescribed; ///< of A: of the interface's equations, of the slave displacements
-  VecHandle held, residual, on_interface, on_slave;
-  std::vector<NodeBlocks> nodes;
+  MatHandle A;
+  PetscObjectState pattern = 0; ///< of A
+  InterfaceColumns columns;
+  std::vector<InterfaceNode> nodes;
+  std::map<PetscInt, std::size_t> slave_at; ///< whole nodes by the first of their rows of S
+  PetscInt first = 0, first_reduced = 0;    ///< own rows of A, of S
 
-  /// Nodes that have met since A has its pattern. L and P keep their entries, so that the pattern of S, and what inner
-  /// solvers have derived from it, is that of the iteration before unless new ones meet.
+  /// What lasts as long as the pattern of A. Rows and columns: u displacements, s slaves' displacements, l multipliers,
+  /// i for each node its three force rows (unless prescribed) and its three conditions.
   struct {
-    std::vector<std::vector<PetscInt>> masters, slaves; ///< columns: by slave node; by displacement
-    bool grown = false;
-  } met;
+    IsHandle u, s, l, i;
+    MatHandle A_us, A_iu, A_is, A_ul;
+    MatHandle minus_D_inverse; ///< l by i
+    MatHandle eliminated;      ///< u by i
+    MatHandle L, P;            ///< u by i; s by u
+    MatHandle LA_iu, LA_is, LA_isP, A_usP;
+    MatHandle S;
+    VecHandle of_interface, of_slaves, displacements;
+  } parts;
 };
 
 } // namespace tribogel

@@ -1,6 +1,9 @@
 /// The linear solver under Newton: a direct one unless options say otherwise.
 #include "solve/problem.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace tribogel
 {
 
@@ -14,7 +17,8 @@ constexpr PetscInt workspace_reserve = 14; ///< MUMPS's ICNTL of that name [%]
 /// order 2 (two_cylinders.opts) 4.4 and 7.7 at 37,700, whence the border by the powers 1.8 and 1.05 of the unknowns.
 constexpr PetscInt direct_up_to[] = {20000, 75000};
 
-constexpr double first_tolerance = 0.1; ///< of the linear solver in Eisenstat and Walker's choice, and their largest
+constexpr double largest_tolerance = 0.1; ///< of the linear solver; also for the first Newton iteration
+constexpr double below_newton = 0.1;      ///< how far below Newton's own tolerance no linear solve need go
 constexpr double transient_tolerance = 1e-5;
 constexpr PetscInt gmres_restart = 60, most_iterations = 400;
 
@@ -91,11 +95,37 @@ PetscErrorCode Problem::SetUpLinearSolver(SNES snes)
   PetscFunctionReturn(0);
 }
 
-/// When the options have been read. A linear solver has one hook before each solve; iterative ones have Eisenstat and
-/// Walker's choice of the tolerance there, unless options say otherwise. It lets Newton stop barely below its
-/// tolerance, which is enough for a steady state. Estimates of the error of short steps see that as noise (a gel
-/// pressed by 0.2 mm: 1118 steps for 12), and so transients have a fixed tolerance with which Newton ends as far below
-/// as with exact solves.
+/// Eisenstat and Walker's second choice [SIAM J. Sci. Comput. 17 (1996) 16], eq. (2.6) with their safeguard (gamma =
+/// 0.9, alpha = golden ratio): the linear residual falls as Newton's has fallen; but not further than is of use to
+/// Newton's test. PETSc's own version does not know where Newton stops, and its last solve goes a decade or two too
+/// far.
+PetscErrorCode Problem::ChooseTolerance(KSP ksp)
+{
+  constexpr double gamma = 0.9, alpha = 1.618033988749895, strict = 0.1;
+  SNES snes;
+  PetscInt iteration;
+  PetscReal norm;
+  PetscFunctionBeginUser;
+  PetscCall(TSGetSNES(ts, &snes));
+  PetscCall(SNESGetIterationNumber(snes, &iteration));
+  PetscCall(SNESGetFunctionNorm(snes, &norm));
+  double tolerance = largest_tolerance;
+  if (iteration > 0) {
+    tolerance = gamma * std::pow(norm / forcing.norm, alpha);
+    const double no_less = gamma * std::pow(forcing.tolerance, alpha);
+    if (no_less > strict) tolerance = std::max(tolerance, no_less);
+    tolerance = std::max(tolerance, below_newton / worst.ratio);
+    tolerance = std::min(tolerance, largest_tolerance);
+  }
+  forcing = {norm, tolerance};
+  PetscCall(KSPSetTolerances(ksp, tolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscFunctionReturn(0);
+}
+
+/// When the options have been read. Iterative solvers have Eisenstat and Walker's tolerance, unless options say
+/// otherwise. It lets Newton stop barely below its tolerance, which is enough for a steady state. Estimates of the
+/// error of short steps see that as noise (a gel pressed by 0.2 mm: 1118 steps for 12), and so transients have a fixed
+/// tolerance with which Newton ends as far below as with exact solves.
 PetscErrorCode Problem::HookLinearSolver(SNES snes)
 {
   KSP ksp;
@@ -116,9 +146,10 @@ PetscErrorCode Problem::HookLinearSolver(SNES snes)
     PetscCall(KSPSetTolerances(ksp, transient_tolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
     PetscFunctionReturn(0);
   }
-  PetscCall(SNESKSPSetUseEW(snes, PETSC_TRUE));
-  PetscCall(SNESKSPSetParametersEW(snes, PETSC_DEFAULT, first_tolerance, first_tolerance, PETSC_DEFAULT, PETSC_DEFAULT,
-                                   PETSC_DEFAULT, PETSC_DEFAULT));
+  const auto choose = [](KSP solver, Vec, Vec, void *problem) {
+    return static_cast<Problem *>(problem)->ChooseTolerance(solver);
+  };
+  PetscCall(KSPSetPreSolve(ksp, choose, this));
   PetscFunctionReturn(0);
 }
 

@@ -304,10 +304,13 @@ PetscErrorCode Problem::AddJacobian(double time, const double *U, const double *
 }
 
 /// The matrix has the pattern of the bulk and of all pairs of facets that may meet soon. PETSc 3.18 inserts a new
-/// nonzero by reallocating, so the pattern is complete before the first value.
+/// nonzero by reallocating, so the pattern is complete before the first value. An old matrix, and what the linear
+/// solver made of it, go first: two would not fit where one does.
 PetscErrorCode Problem::BuildMatrix()
 {
   Mat counter, A;
+  SNES snes;
+  KSP ksp;
   PetscInt local;
   ISLocalToGlobalMapping mapping;
   PetscFunctionBeginUser;
@@ -320,6 +323,11 @@ PetscErrorCode Problem::BuildMatrix()
   for (Mat m : {counter, A}) PetscCall(MatSetSizes(m, local, local, PETSC_DETERMINE, PETSC_DETERMINE));
   PetscCall(MatSetType(counter, MATPREALLOCATOR));
   PetscCall(MatSetType(A, MATAIJ));
+  PetscCall(TSGetSNES(ts, &snes));
+  PetscCall(SNESGetKSP(snes, &ksp));
+  PetscCall(KSPReset(ksp));
+  *jacobian.put() = A;
+  PetscCall(TSSetIJacobian(ts, A, A, nullptr, nullptr)); // null: the DM's callback stays
   PetscCall(MatSetUp(counter));
   for (Mat m : {counter, A}) PetscCall(MatSetLocalToGlobalMapping(m, mapping, mapping));
   PetscCall(bulk->AddPattern(counter));
@@ -331,8 +339,6 @@ PetscErrorCode Problem::BuildMatrix()
   PetscCall(MatSetOption(A, MAT_NEW_NONZERO_LOCATION_ERR, PETSC_TRUE));
   PetscCall(bulk->LocateEntries(A));
   if (contact_unknowns) PetscCall(AttachContactUnknowns(A, contact_unknowns));
-  *jacobian.put() = A;
-  PetscCall(TSSetIJacobian(ts, A, A, nullptr, nullptr)); // null: the DM's callback stays
   PetscFunctionReturn(0);
 }
 

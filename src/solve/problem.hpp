@@ -171,6 +171,7 @@ private:
   PetscErrorCode SetUpTs();
   PetscErrorCode SetUpLinearSolver(SNES snes);
   PetscErrorCode HookLinearSolver(SNES snes);
+  PetscErrorCode ChooseTolerance(KSP ksp);
   PetscReal ShortestStep() const; ///< of the phase [s]
   PetscReal LongestStep() const;  ///< of the phase [s]
   PetscErrorCode RunPhase(int k);
@@ -183,6 +184,11 @@ private:
     bool beyond_speeds = false, not_unique = false;
     int ended_early = -1; ///< phase
   } told;
+
+  /// At the last linear solve of this Newton solve: norm of the residual, and the relative tolerance chosen.
+  struct {
+    double norm = 0, tolerance = 0;
+  } forcing;
 
   std::vector<Observer *> watching;
   PetscReal given_first_step = 0;                          ///< `-ts_dt` [s], 0 if not given
