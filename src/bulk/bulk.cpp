@@ -23,7 +23,8 @@ template <class Kinematics, int order> class BulkOf final : public Bulk
   static constexpr int dofs = Element::dofs, dim = Kinematics::dim;
 
 public:
-  BulkOf(const Mesh &mesh, const Kinematics &model, const Viscoelastic<double> materials[2]) : kinematics(model)
+  BulkOf(const Mesh &mesh, const Kinematics &model, const Viscoelastic<double> materials[2], std::size_t memory)
+      : kinematics(model)
   {
     for (int body : {bottom_body, top_body}) material[body] = materials[body];
     PetscInt offset = 0;
@@ -45,9 +46,9 @@ public:
       cells.push_back(data);
     }
     history_size = offset;
-    remembers = cells.size() * sizeof(Known) <= most_remembered;
-    known.resize(remembers ? cells.size() : 1);
-    if (remembers) history_before.resize(history_size);
+    remembering = cells.size() * sizeof(Known) <= memory;
+    known.resize(remembering ? cells.size() : 1);
+    if (remembering) history_before.resize(history_size);
     history_after.resize(history_size);
   }
 
@@ -205,6 +206,8 @@ public:
     return shares;
   }
 
+  bool remembers() const override { return remembering; }
+
   void AddRoundOff(double *magnitude) const override
   {
     for (const CellData &c : cells) {
@@ -233,9 +236,6 @@ private:
     CellType cell;
   };
 
-  /// An evaluation takes 7 kB at order 1 in space, 2.5 kB for each unknown: as much as all else without the solver.
-  static constexpr std::size_t most_remembered = std::size_t{1} << 28; ///< bytes on a rank
-
   /// The last evaluation of a cell and what it was asked.
   struct Known {
     Vector U;
@@ -250,12 +250,12 @@ private:
                        const Evaluation *&evaluation)
   {
     const CellData &c = cells[n];
-    Known &k = known[remembers ? n : 0];
+    Known &k = known[remembering ? n : 0];
     evaluation = &k.evaluation;
     const Vector u = gather(c, U);
     const double *before = history.data() + c.history;
     double *after = history_after.data() + c.history;
-    if (!remembers) return k.evaluation.set(kinematics, c.cell, material[c.body], u, before, step, after, moduli);
+    if (!remembering) return k.evaluation.set(kinematics, c.cell, material[c.body], u, before, step, after, moduli);
     const auto size = static_cast<std::size_t>(Element::points) * material[c.body].history_size();
     double *copy = history_before.data() + c.history;
     if (k.step == step && k.U == u && std::equal(before, before + size, copy)) return PointStatus::ok;
@@ -291,7 +291,7 @@ private:
   Viscoelastic<double> material[2];
   std::vector<CellData> cells;
   std::size_t history_size = 0;
-  bool remembers = true;                 ///< has room for what is known of every cell
+  bool remembering = true;               ///< has room for what is known of every cell
   std::vector<Known> known;              ///< by cell, or one for all
   History history_before, history_after; ///< of the evaluations in `known`
   std::vector<PetscInt> entries;         ///< places in the values of OwnBlock, -1 where prescribed
@@ -302,11 +302,12 @@ public:
 };
 
 template <class Kinematics, int order>
-PetscErrorCode Make(const Mesh &mesh, const Scene &scene, const Kinematics &kinematics, std::unique_ptr<Bulk> &bulk)
+PetscErrorCode Make(const Mesh &mesh, const Scene &scene, const Kinematics &kinematics, std::size_t memory,
+                    std::unique_ptr<Bulk> &bulk)
 {
   const Viscoelastic<double> materials[2] = {scene.bottom.material, scene.top.material};
   PetscFunctionBeginUser;
-  auto made = std::make_unique<BulkOf<Kinematics, order>>(mesh, kinematics, materials);
+  auto made = std::make_unique<BulkOf<Kinematics, order>>(mesh, kinematics, materials, memory);
   PetscCheck(made->sound, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
              "the mesh has a degenerate cell; allowed: other radii and heights, another -mesh_grading, or a -mesh_file "
              "without it");
@@ -314,25 +315,26 @@ PetscErrorCode Make(const Mesh &mesh, const Scene &scene, const Kinematics &kine
   PetscFunctionReturn(0);
 }
 
-template <int order> PetscErrorCode MakeOf(const Mesh &mesh, const Scene &scene, std::unique_ptr<Bulk> &bulk)
+template <int order>
+PetscErrorCode MakeOf(const Mesh &mesh, const Scene &scene, std::size_t memory, std::unique_ptr<Bulk> &bulk)
 {
   PetscFunctionBeginUser;
   if (mesh.dim == 2)
-    PetscCall(Make<AxisymmetricTorsion, order>(mesh, scene, {scene.twist_length()}, bulk));
+    PetscCall(Make<AxisymmetricTorsion, order>(mesh, scene, {scene.twist_length()}, memory, bulk));
   else
-    PetscCall(Make<Solid, order>(mesh, scene, {}, bulk));
+    PetscCall(Make<Solid, order>(mesh, scene, {}, memory, bulk));
   PetscFunctionReturn(0);
 }
 
 } // namespace
 
-PetscErrorCode Bulk::Create(const Mesh &mesh, const Scene &scene, std::unique_ptr<Bulk> &bulk)
+PetscErrorCode Bulk::Create(const Mesh &mesh, const Scene &scene, std::unique_ptr<Bulk> &bulk, std::size_t memory)
 {
   PetscFunctionBeginUser;
   if (mesh.order == 1)
-    PetscCall(MakeOf<1>(mesh, scene, bulk));
+    PetscCall(MakeOf<1>(mesh, scene, memory, bulk));
   else
-    PetscCall(MakeOf<2>(mesh, scene, bulk));
+    PetscCall(MakeOf<2>(mesh, scene, memory, bulk));
   PetscFunctionReturn(0);
 }
 

@@ -64,7 +64,15 @@ public:
   /// [N], added to the local array.
   virtual void AddRoundOff(double *magnitude) const = 0;
 
-  static PetscErrorCode Create(const Mesh &mesh, const Scene &scene, std::unique_ptr<Bulk> &bulk);
+  /// Whether it keeps what it last evaluated, for when the same is asked again.
+  virtual bool remembers() const = 0;
+
+  /// An evaluation takes 7 kB at order 1 in space, 2.5 kB for each unknown: as much as all else without the solver.
+  static constexpr std::size_t most_remembered = std::size_t{1} << 28; ///< bytes on a rank
+
+  /// It remembers where that takes `memory` bytes at most.
+  static PetscErrorCode Create(const Mesh &mesh, const Scene &scene, std::unique_ptr<Bulk> &bulk,
+                               std::size_t memory = most_remembered);
 };
 
 /// Makes a failure on any rank known to all: they must leave the evaluation, and the solve, together. Collective.
