@@ -1,5 +1,6 @@
 #include "contact/contact_model.hpp"
 
+#include "contact/kernels.hpp"
 #include "contact/surface_reference.hpp"
 #include "tribogel/contact/axisymmetric_contact.hpp"
 #include "tribogel/contact/quad_rolling.hpp"

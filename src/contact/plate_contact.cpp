@@ -1,5 +1,6 @@
 #include "contact/plate_contact.hpp"
 
+#include "contact/kernels.hpp"
 #include "contact/surface_reference.hpp"
 #include "tribogel/contact/axisymmetric_geometry.hpp"
 #include "tribogel/contact/solid_geometry.hpp"

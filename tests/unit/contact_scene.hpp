@@ -2,6 +2,7 @@
 /// arithmetic.
 #pragma once
 
+#include "contact/kernels.hpp"
 #include "tribogel/contact/axisymmetric_contact.hpp"
 #include "tribogel/friction/polynomial.hpp"
 

@@ -2,6 +2,7 @@
 /// up.
 #pragma once
 
+#include "contact/kernels.hpp"
 #include "tribogel/contact/solid_contact.hpp"
 #include "tribogel/friction/polynomial.hpp"
 
