@@ -3,10 +3,11 @@
 
   tidy.py BUILD_DIRECTORY [FOLDER ...]      default: every folder of src, and include
 
-The sources of a folder are read as one, and all headers of include as one: clang-tidy's time goes into the headers that they
-share (11 CPU minutes file by file, about 5 like this). So names in the anonymous namespaces of one folder have to differ; "redefinition" says
-when they do not. The analyzer must be told to look beyond the main file, and gives up on a function after --nodes states (its own
-limit, 225,000, doubles the time).
+clang-tidy's time goes into headers that files share, so the sources of a folder are one file for it, with the project's headers in them,
+and all of include is in that of contact, which makes most use of it. Names in the anonymous namespaces of one folder have to differ:
+"redefinition" says when they do not. A file without includes of the project, and not one that includes what it is made of, since the analyzer
+looks beyond the main file at all or nothing, and half of the time would go into Eigen's functions. It gives up on a function after --nodes
+states.
 """
 import argparse
 import concurrent.futures
@@ -14,12 +15,13 @@ import json
 import pathlib
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
-OURS = r"(include/tribogel/[a-z]+|/src(/[a-z]+)?)/[a-z_]+\.[ch]pp$"  # not Eigen/src/Core/*.h
+FOLDERS = (REPOSITORY / "src", REPOSITORY / "include")  # in which the compiler looks for the project's headers
 NOISE = re.compile(r"^\d+ warnings?( and \d+ errors?)? (generated|treated as errors?)|^Suppressed|^Use -header-filter|^$", re.M)
 
 
@@ -38,12 +40,22 @@ def flags(build):
 
 def groups(repository):
     """Name: files that are read as one, the slowest first."""
-    found = {}
+    found = {"contact": headers(repository)}
     for path in sorted((repository / "src").rglob("*.cpp")):
         found.setdefault(path.parent.name, []).append(path)
-    found["include"] = sorted((repository / "include").rglob("*.hpp"))
-    slowest = ("contact", "include", "bulk", "observe")
+    slowest = ("contact", "bulk", "observe")
     return dict(sorted(found.items(), key=lambda item: slowest.index(item[0]) if item[0] in slowest else len(slowest)))
+
+
+def headers(repository):
+    return sorted((repository / "include").rglob("*.hpp"))
+
+
+def first_includers(paths):
+    """The headers with which all stand alone if they do: a header that begins with another one shows that the other can be first."""
+    begin = (re.search(r'^#include (?:"(.+)"|<)', path.read_text(encoding="utf-8"), re.M) for path in paths)
+    shown = {REPOSITORY / "include" / found[1] for found in begin if found and found[1]}
+    return [path for path in paths if path not in shown]
 
 
 def said(*words):
@@ -52,23 +64,39 @@ def said(*words):
     return done.returncode, "\n".join(line for line in (done.stdout + done.stderr).splitlines() if not NOISE.match(line))
 
 
-def alone(path, compiler_flags, directory):
-    """What stops a header from being included first. With next to no check; the other errors come from the compiler. Not the header
-    itself as the source: one that is included at the end of another would be read twice, since `#pragma once` is nothing in a source."""
-    with tempfile.NamedTemporaryFile("w", suffix=".cpp", dir=directory) as source:
-        source.write(f'#include "{path}"\n')
-        source.flush()
-        return said("--checks=-*,readability-misleading-indentation", source.name, "--", *compiler_flags)
+def alone(path, compiler_flags):
+    """What stops a header from being included first: what clang-tidy's compiler says. Not the header itself as the source: one that is
+    included at the end of another would be read twice, since `#pragma once` is nothing in a source."""
+    compiler = pathlib.Path(shutil.which("clang-tidy")).resolve().with_name("clang++")
+    done = subprocess.run([compiler, *compiler_flags, "-w", "-fsyntax-only", "-x", "c++", "-"], input=f'#include "{path}"\n',
+                          capture_output=True, text=True, check=False)
+    return done.returncode, done.stderr
+
+
+def unrolled(path, done, origin):
+    """The lines of a file with those of the project's headers that it includes in place of the lines that do, each once. Where each line
+    comes from is added to `origin`."""
+    done.add(path)
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        include = re.match(r'#include "(.+)"', line)
+        header = include and next((folder / include[1] for folder in FOLDERS if (folder / include[1]).exists()), None)
+        if header and header not in done:
+            yield from unrolled(header, done, origin)
+        else:
+            origin.append(f"{path.relative_to(REPOSITORY)}:{number}")
+            yield "" if header or line == "#pragma once" else line
 
 
 def together(paths, compiler_flags, nodes, directory):
     """What there is to be found in files read as one."""
+    done, origin = set(), []
+    lines = [line for path in paths if path not in done for line in unrolled(path, done, origin)]
     with tempfile.NamedTemporaryFile("w", suffix=".cpp", dir=directory) as source:
-        source.writelines(f'#include "{path}" // NOLINT(bugprone-suspicious-include)\n' for path in paths)
+        source.write("\n".join(lines) + "\n")
         source.flush()
-        clang = [word for option in ("-analyzer-opt-analyze-headers", "-analyzer-config", f"max-nodes={nodes}")
-                 for word in ("-Xclang", option)]
-        return said(f"--config-file={REPOSITORY / '.clang-tidy'}", f"--header-filter={OURS}", source.name, "--", *compiler_flags, *clang)
+        status, text = said(f"--config-file={REPOSITORY / '.clang-tidy'}", source.name, "--", *compiler_flags, "-Xclang",
+                            "-analyzer-config", "-Xclang", f"max-nodes={nodes}")
+        return status, re.sub(rf"{re.escape(source.name)}:(\d+)", lambda at: origin[int(at[1]) - 1], text)
 
 
 def main():
@@ -78,10 +106,11 @@ def main():
     parser.add_argument("--nodes", type=int, default=20000, help="default: %(default)s")
     a = parser.parse_args()
     chosen = {name: paths for name, paths in groups(REPOSITORY).items() if not a.folders or name in a.folders}
+    stand_alone = first_includers(headers(REPOSITORY)) if not a.folders or "include" in a.folders else []
     common, failed = flags(a.build), False
     with tempfile.TemporaryDirectory() as directory, concurrent.futures.ThreadPoolExecutor(2) as pool:
         jobs = [pool.submit(together, paths, common, a.nodes, directory) for paths in chosen.values()]
-        jobs += [pool.submit(alone, path, common, directory) for path in chosen.get("include", [])]
+        jobs += [pool.submit(alone, path, common) for path in stand_alone]
         for job in jobs:
             status, text = job.result()
             failed = failed or status != 0
