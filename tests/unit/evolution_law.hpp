@@ -2,11 +2,8 @@
 #pragma once
 
 #include "material_samples.hpp"
-#include "matrix_reference.hpp"
 
 #include "tribogel/material/viscoelastic.hpp"
-
-#include <boost/numeric/odeint.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -19,8 +16,6 @@ using tribogel::from_mandel;
 using tribogel::Mandel;
 using tribogel::to_mandel;
 
-using Real = long double;
-
 /// Shear, stretch and rotation about axes that turn: no two times are coaxial. A cycle of 4 s that starts with a jerk.
 inline Matrix3<double> wandering(double t)
 {
@@ -32,28 +27,8 @@ inline Matrix3<double> wandering(double t)
 
 /// The evolution law -1/2 (L_v b_e) b_e^-1 = V^-1 : tau as an ordinary differential equation for X = C_i^-1 of each
 /// branch, b_e = F X F^T: dX/dt = -2 F^-1 (V^-1 : tau) b_e F^-T. Integrated by a library to 1e-12.
-inline std::vector<double> integrate_flow(const Viscoelastic<double> &material, Matrix3<double> (*deformation)(double),
-                                          double end)
-{
-  const auto law = reference::law(material);
-  const auto rhs = [&](const std::vector<double> &x, std::vector<double> &dxdt, double t) {
-    const reference::Matrix F = reference::lift(deformation(t)), inverse = F.inverse();
-    for (std::size_t m = 0; m < law.branches.size(); ++m) {
-      const reference::Matrix X = reference::lift(from_mandel<double>(Eigen::Map<const Mandel<double>>(&x[6 * m])));
-      const reference::Matrix be = F * X * F.transpose();
-      const auto flow = law.branches[m].flow(law.branches[m].spring.stress(reference::logarithm(be) / Real(2)));
-      const reference::Matrix rate = Real(-2) * inverse * flow * be * inverse.transpose();
-      Eigen::Map<Mandel<double>> out(dxdt.data() + 6 * m);
-      out = to_mandel<double>(rate.real().cast<double>());
-    }
-  };
-  std::vector<double> x(material.history_size());
-  material.initial_history(x.data());
-  namespace ode = boost::numeric::odeint;
-  ode::integrate_adaptive(ode::make_controlled(1e-12, 1e-12, ode::runge_kutta_fehlberg78<std::vector<double>>()), rhs,
-                          x, 0.0, end, 0.01);
-  return x;
-}
+std::vector<double> integrate_flow(const Viscoelastic<double> &material, Matrix3<double> (*deformation)(double),
+                                   double end);
 
 inline Mandel<double> stress_at(const Viscoelastic<double> &material, const Matrix3<double> &F,
                                 const std::vector<double> &history)
