@@ -3,7 +3,11 @@
 
   test_scaling.py TRIBOGEL [--mpirun MPIRUN]
 """
+import contextlib
 import csv
+import importlib.machinery
+import importlib.util
+import io
 import math
 import pathlib
 import subprocess
@@ -11,6 +15,7 @@ import sys
 import tempfile
 import types
 import unittest
+import unittest.mock
 
 sys.dont_write_bytecode = True
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
@@ -19,6 +24,9 @@ import cost_model  # noqa: E402
 import logged_run  # noqa: E402
 import scaling_report  # noqa: E402
 
+loader = importlib.machinery.SourceFileLoader("scaling", str(REPOSITORY / "tools" / "scaling"))
+tool = importlib.util.module_from_spec(importlib.util.spec_from_loader("scaling", loader))
+loader.exec_module(tool)
 PROGRAM, MPIRUN = None, "mpirun"
 
 
@@ -101,6 +109,14 @@ class Report(unittest.TestCase):
         run = made_up(1, 8000, 10, 20.0, solves=12, linear=6.0)
         self.assertAlmostEqual(run.rest_of_newton, 1 - 6 * 10 / 12 / 20, delta=1e-14)
 
+    def test_each_event_has_an_efficiency_of_its_own(self):
+        one, two = made_up(1, 8000, 10, 20.0), made_up(2, 8000, 10, 12.5)  # 2 s and 1.25 s an iteration
+        one.events["GelBulkJacobian"] = logged_run.Event(10, 6.0, 0, 0, 0, 0)
+        two.events["GelBulkJacobian"] = logged_run.Event(10, 3.3, 0, 4.0, 7e6, 0)
+        text = scaling_report.strong_tables({(1, 4): one, (2, 4): two}, {})
+        self.assertIn("| SNESSolve | 2 | 2 | 1.25 | 0.80 | 6 | 0.0009 |", text)
+        self.assertIn(f"| GelBulkJacobian | 10 | 0.6 | 0.33 | {6 / (2 * 3.3):.2f} | 0.4 | 0.7 |", text)
+
     def test_what_is_residual_and_jacobian_is_not_the_solver(self):
         run = made_up(1, 8000, 10, 20.0, linear=17.0)  # an inner set-up counted twice
         run.events |= {"SNESFunctionEval": logged_run.Event(12, 1.5, 0, 0, 0, 0), "SNESJacobianEval": logged_run.Event(10, 6.5, 0, 0, 0, 0)}
@@ -119,6 +135,15 @@ class Report(unittest.TestCase):
 
 
 class Study(unittest.TestCase):
+    def test_the_cheapest_of_those_repeated_counts(self):
+        runs = [types.SimpleNamespace(status=status, cpu=cpu, failure="", newton_seconds=1.0, counts={})
+                for status, cpu in ((3, 0.5), (0, 2.5), (0, 1.5), (0, 3.5))]
+        a = tool.parse(["--repeats", "4"])
+        study = tool.Study(a, "program")
+        with unittest.mock.patch.object(tool, "Run", side_effect=runs), contextlib.redirect_stderr(io.StringIO()):
+            study.run(1, 6)
+        self.assertIs(study.runs[1, 6], runs[2])
+
     def scaling(self, *words):
         return subprocess.run([REPOSITORY / "tools" / "scaling", "--program", PROGRAM, "--mpirun", MPIRUN, *map(str, words)],
                               capture_output=True, text=True, check=False)
