@@ -101,10 +101,7 @@ public:
       }
       Element::tangent(kinematics, c.cell, *evaluation, K);
       if (values && c.first_entry != elsewhere)
-        for (int k = 0; k < dofs * dofs; ++k) {
-          const PetscInt place = entries[c.first_entry + k];
-          if (place >= 0) values[place] += K.data()[k];
-        }
+        AddEntries(c, K, values);
       else
         PetscCall(MatSetValuesLocal(A, dofs, c.dof.data(), dofs, c.dof.data(), K.data(), ADD_VALUES));
     }
@@ -139,8 +136,16 @@ public:
       }
       c.first_entry = all_own ? entries.size() : elsewhere;
       if (!all_own) continue;
+      c.free = {};
+      std::array<PetscInt, Element::nodes> first_free; // of each node; its others follow it
+      first_free.fill(-1);
+      for (int k = dofs; k-- > 0;)
+        if (index[k] >= 0) {
+          c.free[k / 3] |= 1u << k % 3;
+          first_free[k / 3] = index[k];
+        }
       for (PetscInt i : index)
-        for (PetscInt j : index)
+        for (PetscInt j : first_free)
           entries.push_back(i < 0 || j < 0 ? -1
                                            : static_cast<PetscInt>(
                                                  std::lower_bound(column + row[i], column + row[i + 1], j) - column));
@@ -232,6 +237,7 @@ private:
     std::array<double, 3> centre;
     std::size_t history;     ///< offset of its first point
     std::size_t first_entry; ///< in `entries`; `elsewhere` if some of its unknowns are another rank's
+    std::array<unsigned char, Element::nodes> free; ///< of each node, a bit for each displacement not prescribed
     bool at_top_plate;
     CellType cell;
   };
@@ -266,6 +272,18 @@ private:
     return status;
   }
 
+  void AddEntries(const CellData &c, const typename Element::Matrix &K, PetscScalar *values) const
+  {
+    const PetscInt *place = entries.data() + c.first_entry;
+    for (int k = 0; k < dofs; ++k)
+      for (int b = 0; b < Element::nodes; ++b, ++place) {
+        if (*place < 0) continue;
+        PetscScalar *value = values + *place;
+        for (int j = 0; j < 3; ++j)
+          if (c.free[b] >> j & 1u) *value++ += K(k, 3 * b + j);
+      }
+  }
+
   /// The block of an AIJ matrix that this rank's unknowns share with each other; null for other types.
   static PetscErrorCode OwnBlock(Mat A, Mat &own)
   {
@@ -294,8 +312,10 @@ private:
   bool remembering = true;               ///< has room for what is known of every cell
   std::vector<Known> known;              ///< by cell, or one for all
   History history_before, history_after; ///< of the evaluations in `known`
-  std::vector<PetscInt> entries;         ///< places in the values of OwnBlock, -1 where prescribed
-  Mat located = nullptr;                 ///< the matrix that `entries` is about
+  /// Places in the values of OwnBlock, by cell, row and column's node: of the node's first free displacement, -1 where
+  /// there is none or the row is prescribed.
+  std::vector<PetscInt> entries;
+  Mat located = nullptr; ///< the matrix that `entries` is about
 
 public:
   bool sound = true; ///< no cell is degenerate or inside out
