@@ -27,18 +27,20 @@ public:
       : kinematics(model)
   {
     for (int body : {bottom_body, top_body}) material[body] = materials[body];
+    remembering = mesh.cells.size() * sizeof(Known) <= memory;
+    known.resize(remembering ? mesh.cells.size() : 1);
+    cells.reserve(mesh.cells.size());
     PetscInt offset = 0;
     for (const MeshCell &mesh_cell : mesh.cells) {
       CellData data{};
       data.body = mesh_cell.body;
-      std::array<typename CellType::Position, Element::nodes> X;
       for (int a = 0; a < Element::nodes; ++a) {
         const Node &node = mesh.nodes[mesh_cell.node[a]];
-        std::copy_n(node.X.begin(), dim, X[a].begin());
+        std::copy_n(node.X.begin(), dim, data.X[a].begin());
         for (int i = 0; i < 3; ++i) data.dof[3 * a + i] = node.displacement + i;
         for (int j = 0; j < dim; ++j) data.centre[j] += node.X[j] / Element::nodes;
       }
-      sound = data.cell.set(X) && sound;
+      sound = known[remembering ? cells.size() : 0].cell.set(data.X) && sound;
       for (int a = 0; a < Element::nodes; ++a)
         data.at_top_plate = data.at_top_plate || mesh.nodes[mesh_cell.node[a]].on(Side::top_plate);
       data.history = offset;
@@ -46,8 +48,6 @@ public:
       cells.push_back(data);
     }
     history_size = offset;
-    remembering = cells.size() * sizeof(Known) <= memory;
-    known.resize(remembering ? cells.size() : 1);
     if (remembering) history_before.resize(history_size);
     history_after.resize(history_size);
   }
@@ -56,13 +56,13 @@ public:
                           double *magnitude) override
   {
     for (std::size_t n = 0; n < cells.size(); ++n) {
-      const Evaluation *evaluation;
-      const PointStatus status = Evaluate(n, U, history, step, false, evaluation);
+      const Known *k;
+      const PointStatus status = Evaluate(n, U, history, step, false, k);
       if (status != PointStatus::ok) return failure_of(cells[n], status);
-      const Vector R = Element::forces(kinematics, cells[n].cell, *evaluation);
-      for (int k = 0; k < dofs; ++k) {
-        F[cells[n].dof[k]] += R[k];
-        magnitude[cells[n].dof[k]] += std::abs(R[k]);
+      const Vector R = Element::forces(kinematics, k->cell, k->evaluation);
+      for (int i = 0; i < dofs; ++i) {
+        F[cells[n].dof[i]] += R[i];
+        magnitude[cells[n].dof[i]] += std::abs(R[i]);
       }
     }
     return {};
@@ -72,11 +72,13 @@ public:
   {
     for (const CellData &c : cells) {
       if (!c.at_top_plate) continue;
+      CellType cell;
+      cell.set(c.X);
       Evaluation evaluation;
-      const PointStatus status = evaluation.set(kinematics, c.cell, material[c.body], gather(c, U),
+      const PointStatus status = evaluation.set(kinematics, cell, material[c.body], gather(c, U),
                                                 history.data() + c.history, step, nullptr, false);
       if (status != PointStatus::ok) return failure_of(c, status);
-      const Vector R = Element::forces(kinematics, c.cell, evaluation);
+      const Vector R = Element::forces(kinematics, cell, evaluation);
       for (int k = 0; k < dofs; ++k) F[c.dof[k]] += R[k];
     }
     return {};
@@ -93,13 +95,13 @@ public:
     if (A == located) PetscCall(MatSeqAIJGetArray(own, &values));
     for (std::size_t n = 0; n < cells.size(); ++n) {
       const CellData &c = cells[n];
-      const Evaluation *evaluation;
-      const PointStatus status = Evaluate(n, U, history, step, true, evaluation);
+      const Known *k;
+      const PointStatus status = Evaluate(n, U, history, step, true, k);
       if (status != PointStatus::ok) {
         failure = failure_of(c, status);
         break;
       }
-      Element::tangent(kinematics, c.cell, *evaluation, K);
+      Element::tangent(kinematics, k->cell, k->evaluation, K);
       if (values && c.first_entry != elsewhere)
         AddEntries(c, K, values);
       else
@@ -169,10 +171,10 @@ public:
                       CellEnergy &energy) override
   {
     for (std::size_t n = 0; n < cells.size(); ++n) {
-      const Evaluation *evaluation;
-      const PointStatus status = Evaluate(n, U, history, step, false, evaluation);
+      const Known *k;
+      const PointStatus status = Evaluate(n, U, history, step, false, k);
       if (status != PointStatus::ok) return failure_of(cells[n], status);
-      const CellEnergy part = evaluation->energy(cells[n].cell);
+      const CellEnergy part = k->evaluation.energy(k->cell);
       energy.stored += part.stored;
       energy.dissipated += part.dissipated;
     }
@@ -218,7 +220,9 @@ public:
     for (const CellData &c : cells) {
       double modulus = material[c.body].equilibrium.bulk_modulus;
       for (const auto &branch : material[c.body].branches) modulus += branch.spring.bulk_modulus;
-      for (const auto &p : c.cell.point)
+      CellType cell;
+      cell.set(c.X);
+      for (const auto &p : cell.point)
         for (int a = 0; a < Element::nodes; ++a) {
           double slope = p.shape[1][a];
           for (int j = 2; j <= dim; ++j) slope = std::hypot(slope, p.shape[j][a]);
@@ -239,11 +243,12 @@ private:
     std::size_t first_entry; ///< in `entries`; `elsewhere` if some of its unknowns are another rank's
     std::array<unsigned char, Element::nodes> free; ///< of each node, a bit for each displacement not prescribed
     bool at_top_plate;
-    CellType cell;
+    std::array<typename CellType::Position, Element::nodes> X;
   };
 
-  /// The last evaluation of a cell and what it was asked.
+  /// A cell's geometry, its last evaluation, and what that was asked.
   struct Known {
+    CellType cell;
     Vector U;
     StepWeights step{-1}; ///< none yet
     Evaluation evaluation;
@@ -251,21 +256,24 @@ private:
 
   /// SNES asks for the residual and then for the tangent at the same U, and an accepted step for the internal variables
   /// there: the material, which is most of the work, answers once. What it was asked is compared bit by bit. In meshes
-  /// with too many cells for that it answers each time, without moduli where nobody asks for them.
+  /// with too many cells for that geometry and material answer each time, without moduli where nobody asks for them.
   PointStatus Evaluate(std::size_t n, const double *U, const History &history, StepWeights step, bool moduli,
-                       const Evaluation *&evaluation)
+                       const Known *&answer)
   {
     const CellData &c = cells[n];
     Known &k = known[remembering ? n : 0];
-    evaluation = &k.evaluation;
+    answer = &k;
     const Vector u = gather(c, U);
     const double *before = history.data() + c.history;
     double *after = history_after.data() + c.history;
-    if (!remembering) return k.evaluation.set(kinematics, c.cell, material[c.body], u, before, step, after, moduli);
+    if (!remembering) {
+      k.cell.set(c.X);
+      return k.evaluation.set(kinematics, k.cell, material[c.body], u, before, step, after, moduli);
+    }
     const auto size = static_cast<std::size_t>(Element::points) * material[c.body].history_size();
     double *copy = history_before.data() + c.history;
     if (k.step == step && k.U == u && std::equal(before, before + size, copy)) return PointStatus::ok;
-    const PointStatus status = k.evaluation.set(kinematics, c.cell, material[c.body], u, before, step, after, true);
+    const PointStatus status = k.evaluation.set(kinematics, k.cell, material[c.body], u, before, step, after, true);
     k.step = status == PointStatus::ok ? step : StepWeights{-1};
     k.U = u;
     std::copy(before, before + size, copy);
