@@ -67,8 +67,8 @@ public:
   /// Whether it keeps what it last evaluated, for when the same is asked again.
   virtual bool remembers() const = 0;
 
-  /// Geometry and evaluation of a cell take 7 kB at order 1 in space, 2.5 kB for each unknown: more than all else without
-  /// the solver.
+  /// Geometry and evaluation of a cell take 7 kB at order 1 in space, 2.5 kB for each unknown: more than all else
+  /// without the solver.
   static constexpr std::size_t most_remembered = std::size_t{1} << 28; ///< bytes on a rank
 
   /// It remembers where that takes `memory` bytes at most.
