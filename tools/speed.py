@@ -21,6 +21,21 @@ def course_of(directory):
     return {phase: numpy.array(rows).T for phase, rows in phases.items()}
 
 
+def interpolated(at, times, values):
+    """By the cubic through the four of the given times about each one asked for: between the steps of a reference a line errs
+    by half a hundredth of a per cent. Fewer given times, a lower polynomial."""
+    count = min(4, len(times))
+    first = numpy.clip(numpy.searchsorted(times, at) - 2, 0, len(times) - count)
+    result = numpy.zeros(len(at))
+    for i in range(count):
+        weight = numpy.ones(len(at))
+        for j in range(count):
+            if j != i:
+                weight *= (at - times[first + j]) / (times[first + i] - times[first + j])
+        result += weight * values[first + i]
+    return result
+
+
 def largest_difference(course, reference, name):
     """Of a run's values from the reference's at the same times, over the largest value of the reference. Before a phase's first
     accepted step the reference is what it was at the end of the phase before, where T may jump: those times are left out."""
@@ -30,7 +45,7 @@ def largest_difference(course, reference, name):
     for phase, rows in course.items():
         exact = reference[phase]
         inside = rows[0] >= exact[0][0]
-        worst = max(worst, abs(rows[k][inside] - numpy.interp(rows[0][inside], exact[0], exact[k])).max(initial=0.0))
+        worst = max(worst, abs(rows[k][inside] - interpolated(rows[0][inside], exact[0], exact[k])).max(initial=0.0))
     return worst / scale
 
 

@@ -32,6 +32,13 @@ class Comparison(unittest.TestCase):
         course = {"1": numpy.array([[0.05, 0.55], [3.05, 3.65], [0, 0]])}  # the second is 0.1 off, of 4
         self.assertAlmostEqual(speed.largest_difference(course, reference, speed.FORCE), 0.1 / 4, delta=1e-14)
 
+    def test_between_steps_a_cubic_is_itself(self):
+        times = numpy.array([0.1, 0.2, 0.5, 1.0, 2.5, 3.0])
+        at = numpy.array([0.1, 0.15, 0.7, 1.4, 2.9, 3.0])
+        cubic = numpy.polynomial.Polynomial([1.0, -2.0, 0.5, 0.25])
+        self.assertLess(abs(speed.interpolated(at, times, cubic(times)) - cubic(at)).max(), 1e-14)
+        self.assertAlmostEqual(speed.interpolated(numpy.array([0.4]), times[1:3], 3 * times[1:3])[0], 1.2, delta=1e-15)
+
     def test_times_before_the_first_step_of_the_reference_do_not_count(self):
         reference = {"1": numpy.array([[1.0, 2.0], [0.0, 0.0], [5.0, 5.0]])}
         course = {"1": numpy.array([[0.5, 1.5], [0.0, 0.0], [77.0, 5.5]])}
