@@ -16,7 +16,11 @@ struct ContactUnknowns {
   std::vector<PetscInt> displacement;      ///< all of them, rising
   std::vector<PetscInt> slave, multiplier; ///< first of three, of each node with multiplier; slave -1 if prescribed
   bool whole_nodes = true;                 ///< every node has three displacements or none, on all ranks
-  VecHandle place;                         ///< of the node of each displacement, deformed [mm]; block size 3
+  VecHandle place;                         ///< of the node of each displacement, at rest [mm]; block size 3
+
+  /// Order 2: all displacements by those of the cells' vertices, and `place` for the latter; null without.
+  MatHandle from_vertices;
+  VecHandle vertex_place;
 };
 
 /// First indices of the nodes of all ranks, rising.

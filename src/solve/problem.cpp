@@ -118,45 +118,6 @@ PetscErrorCode Problem::SetUpFields()
   PetscFunctionReturn(0);
 }
 
-/// What the contact preconditioner asks for.
-PetscErrorCode Problem::ListContactUnknowns()
-{
-  ISLocalToGlobalMapping mapping;
-  const PetscInt *to_global;
-  PetscScalar *place;
-  auto list = std::make_shared<ContactUnknowns>();
-  std::vector<std::pair<PetscInt, double>> rows;
-  PetscFunctionBeginUser;
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm)));
-  PetscCall(DMGetLocalToGlobalMapping(mesh.dm, &mapping));
-  PetscCall(ISLocalToGlobalMappingGetIndices(mapping, &to_global));
-  for (const Node &node : mesh.nodes) {
-    if (!node.owned) continue;
-    for (int i = 0; i < 3; ++i)
-      if (!(node.prescribed >> i & 1u)) rows.emplace_back(to_global[node.displacement + i], node.X[i]);
-    if (node.prescribed != 0 && node.prescribed != 7) list->whole_nodes = false;
-    if (node.traction < 0) continue;
-    list->slave.push_back(node.prescribed ? -1 : to_global[node.displacement]);
-    list->multiplier.push_back(to_global[node.traction]);
-  }
-  PetscCall(ISLocalToGlobalMappingRestoreIndices(mapping, &to_global));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &list->whole_nodes, 1, MPI_CXX_BOOL, MPI_LAND, comm));
-  std::sort(rows.begin(), rows.end());
-  PetscCall(VecCreate(comm, list->place.put()));
-  PetscCall(VecSetSizes(list->place, static_cast<PetscInt>(rows.size()), PETSC_DETERMINE));
-  if (list->whole_nodes) PetscCall(VecSetBlockSize(list->place, 3));
-  PetscCall(VecSetType(list->place, VECSTANDARD));
-  PetscCall(VecGetArray(list->place, &place));
-  for (const auto &[row, coordinate] : rows) {
-    list->displacement.push_back(row);
-    *place++ = coordinate;
-  }
-  place -= rows.size();
-  PetscCall(VecRestoreArray(list->place, &place));
-  contact_unknowns = list;
-  PetscFunctionReturn(0);
-}
-
 PetscErrorCode Problem::MeasurePlate()
 {
   double lowest_highest[2] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};

@@ -167,6 +167,7 @@ private:
   PetscErrorCode LocateWorst(const double *f);
   PetscErrorCode SetUpFields();
   PetscErrorCode ListContactUnknowns();
+  PetscErrorCode InterpolateFromVertices(const PetscInt *to_global, ContactUnknowns &list);
   PetscErrorCode MeasurePlate();
   PetscErrorCode SetUpTs();
   PetscErrorCode SetUpLinearSolver(SNES snes);
