@@ -26,7 +26,10 @@ public:
   BulkOf(const Mesh &mesh, const Kinematics &model, const Viscoelastic<double> materials[2], std::size_t memory)
       : kinematics(model)
   {
-    for (int body : {bottom_body, top_body}) material[body] = materials[body];
+    for (int body : {bottom_body, top_body}) {
+      material[body] = materials[body];
+      by_lanes[body] = material[body].cast<Lanes>();
+    }
     remembering = mesh.cells.size() * sizeof(Known) <= memory;
     known.resize(remembering ? mesh.cells.size() : 1);
     cells.reserve(mesh.cells.size());
@@ -75,7 +78,7 @@ public:
       CellType cell;
       cell.set(c.X);
       Evaluation evaluation;
-      const PointStatus status = evaluation.set(kinematics, cell, material[c.body], gather(c, U),
+      const PointStatus status = evaluation.set(kinematics, cell, by_lanes[c.body], gather(c, U),
                                                 history.data() + c.history, step, nullptr, false);
       if (status != PointStatus::ok) return failure_of(c, status);
       const Vector R = Element::forces(kinematics, cell, evaluation);
@@ -268,12 +271,12 @@ private:
     double *after = history_after.data() + c.history;
     if (!remembering) {
       k.cell.set(c.X);
-      return k.evaluation.set(kinematics, k.cell, material[c.body], u, before, step, after, moduli);
+      return k.evaluation.set(kinematics, k.cell, by_lanes[c.body], u, before, step, after, moduli);
     }
     const auto size = static_cast<std::size_t>(Element::points) * material[c.body].history_size();
     double *copy = history_before.data() + c.history;
     if (k.step == step && k.U == u && std::equal(before, before + size, copy)) return PointStatus::ok;
-    const PointStatus status = k.evaluation.set(kinematics, k.cell, material[c.body], u, before, step, after, true);
+    const PointStatus status = k.evaluation.set(kinematics, k.cell, by_lanes[c.body], u, before, step, after, true);
     k.step = status == PointStatus::ok ? step : StepWeights{-1};
     k.U = u;
     std::copy(before, before + size, copy);
@@ -315,6 +318,7 @@ private:
 
   Kinematics kinematics;
   Viscoelastic<double> material[2];
+  Viscoelastic<Lanes> by_lanes[2]; ///< the same
   std::vector<CellData> cells;
   std::size_t history_size = 0;
   bool remembering = true;               ///< has room for what is known of every cell

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "tribogel/element/cell.hpp"
-#include "tribogel/material/viscoelastic.hpp"
+#include "tribogel/material/points.hpp"
 #include "tribogel/math/tensor.hpp"
 
 #include <array>
@@ -41,7 +41,7 @@ public:
 
     /// For nodal unknowns U [mm] (node by node). `history` holds the internal variables at the points at t_n (points x
     /// material.history_size()), `history_new`, if not null, receives those at t_(n+1). Nothing means anything unless
-    /// the status is ok.
+    /// the status is ok. The material's scalar is T, or Lanes where T is double.
     template <class Material>
     PointStatus set(const Kinematics &kinematics, const CellType &cell, const Material &material, const Vector<T> &U,
                     const T *history, StepWeights step, T *history_new, bool with_tangent);
@@ -176,7 +176,7 @@ PointStatus MeanDilatation<Kinematics, order>::Evaluation<T>::set(const Kinemati
                                                                   bool with_tangent)
 {
   using std::cbrt;
-  const int stride = material.history_size();
+  Matrix3<T> F[points]; // then F~
   Rows<T> u;
   for (int a = 0; a < nodes; ++a)
     for (int i = 0; i < unknowns; ++i) u[i][a] = U[a * unknowns + i];
@@ -191,25 +191,24 @@ PointStatus MeanDilatation<Kinematics, order>::Evaluation<T>::set(const Kinemati
         for (int j = 0; j < Kinematics::dim; ++j) f.grad[i][j] += p.shape[1 + j][a] * u[i][a];
       }
     }
-    const Matrix3<T> F = kinematics.deformation(p.X, f);
-    J[q] = F.determinant();
+    F[q] = kinematics.deformation(p.X, f);
+    J[q] = F[q].determinant();
     if (!(J[q] > 0)) return PointStatus::inverted; // NaN included
-    inverse[q] = F.inverse();
+    inverse[q] = F[q].inverse();
   }
   const auto dilatation = project(cell, J);
-  T s[points];
   for (int q = 0; q < points; ++q) {
     const auto &p = cell.point[q];
     theta[q] = T(0);
     for (int k = 0; k < modes; ++k) theta[q] += p.psi[k] * dilatation[k];
     if (!(theta[q] > 0)) return PointStatus::inverted;
-    const T scale = cbrt(theta[q] / J[q]);
-    const HistoryLevels<T> levels{history ? history + q * stride : nullptr};
-    response[q] = material.evaluate(Matrix3<T>(scale * kinematics.deformation(p.X, field[q])), levels, step,
-                                    history_new ? history_new + q * stride : nullptr, with_tangent);
-    if (response[q].status != PointStatus::ok) return response[q].status;
-    s[q] = (response[q].tau[0] + response[q].tau[1] + response[q].tau[2]) / (3.0 * theta[q]);
+    F[q] *= T(cbrt(theta[q] / J[q]));
   }
+  const PointStatus status = evaluate_points(material, points, F, history, step, history_new, with_tangent, response);
+  if (status != PointStatus::ok) return status;
+  T s[points];
+  for (int q = 0; q < points; ++q)
+    s[q] = (response[q].tau[0] + response[q].tau[1] + response[q].tau[2]) / (3.0 * theta[q]);
   const auto mean = project(cell, s);
   for (int q = 0; q < points; ++q) {
     pressure[q] = T(0);

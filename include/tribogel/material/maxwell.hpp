@@ -15,7 +15,7 @@ template <class T> struct BranchStep {
   /// Elastic principal logarithmic strains eps_a at the new time.
   Vector3<T> strain = Vector3<T>::Zero();
   /// (eps_a - eps_b)/(trial_a - trial_b) by pair_index, 0 (relaxed) ... 1 (frozen).
-  Vector3<double> strain_ratio = Vector3<double>::Zero();
+  Vector3<Value<T>> strain_ratio = Vector3<Value<T>>::Zero();
   DeviatoricStress<T> deviatoric; ///< at the new time; stiffness and secant with respect to the *trial* strains
   VolumetricStress<T> volumetric; ///< the same
   T energy = 0;                   ///< stored, per reference volume [MPa]
@@ -23,7 +23,7 @@ template <class T> struct BranchStep {
 };
 
 /// An Ogden spring in series with a dashpot: -1/2 (L_v b_e) b_e^-1 = dev tau/(2 eta_D) + tr tau/(9 eta_V) 1.
-/// T is the scalar of the parameters, double or Dual<N>.
+/// T is the scalar of the parameters, double, Dual<N> or Lanes.
 template <class T> struct MaxwellBranch {
   Ogden<T> spring;
   T deviatoric_viscosity; ///< eta_D [MPa s], > 0
@@ -42,6 +42,15 @@ template <class T> struct MaxwellBranch {
   BranchStep<T> advance(const Vector3<T> &trial, double step) const;
 
 private:
+  /// Absolute value.
+  template <class V> static V largest(const Vector3<V> &x)
+  {
+    using std::abs;
+    V most = abs(x[0]);
+    for (int a = 1; a < 3; ++a) most = where(abs(x[a]) > most, V(abs(x[a])), most);
+    return most;
+  }
+
   static constexpr int max_iterations = 60;
   static constexpr double quadratic = 1e-9; ///< a smaller correction, once applied, leaves nothing but round-off
 
@@ -49,7 +58,7 @@ private:
   bool solve_deviatoric(const Vector3<T> &trial, const T &rate, Vector3<T> &e) const;
 
   /// (1 + rate P diag(D) P)^-1 r for a trace-free r, THEORY (1.15).
-  template <class S> static Vector3<S> correction(const Vector3<double> &D, double rate, const Vector3<S> &r)
+  template <class S> static Vector3<S> correction(const Vector3<Value<T>> &D, const Value<T> &rate, const Vector3<S> &r)
   {
     const Vector3<S> Dr = D.cwiseProduct(r), flow = Dr.array() - Dr.sum() / 3;
     return ((1 + rate * 2 / 3 * D.sum()) * r - rate * flow) / determinant(D, rate);
@@ -72,7 +81,8 @@ template <class T> BranchStep<T> MaxwellBranch<T>::advance(const Vector3<T> &tri
 {
   BranchStep<T> out;
   const T trial_theta = trial.sum();
-  if (!std::isfinite(value(trial_theta))) return out.status = PointStatus::local_newton_failed, out;
+  using std::isfinite;
+  if (!all(isfinite(value(trial_theta)))) return out.status = PointStatus::local_newton_failed, out;
   if (std::isinf(step)) return out; // fully relaxed: all is zero
   const T rate = 0.5 * step / deviatoric_viscosity, volumetric_rate = step / volumetric_viscosity;
   const Vector3<T> trial_e = trial.array() - trial_theta / 3;
@@ -110,21 +120,24 @@ template <class T> BranchStep<T> MaxwellBranch<T>::advance(const Vector3<T> &tri
 /// J > 1/4 only and falls below J = 1/2: where the left side does not grow, there is no root to be trusted.
 template <class T> bool MaxwellBranch<T>::solve_volumetric(const T &trial, const T &rate, T &theta) const
 {
-  double t = value(trial) / (1 + value(rate) * value(spring.bulk_modulus)), size = 1;
-  for (int i = 0; i < max_iterations && size > quadratic; ++i) {
-    const VolumetricStress<double> stress = spring.volumetric(t);
-    const double slope = 1 + value(rate) * stress.bulk;
-    if (!(slope > 0)) return false;
-    const double change = (t - value(trial) + value(rate) * stress.mean) / slope;
-    t -= change;
-    size = std::abs(change) / (1 + std::abs(t));
+  using std::abs;
+  using V = Value<T>;
+  V t = value(trial) / (1 + value(rate) * value(spring.bulk_modulus)), size = 1;
+  for (int i = 0; i < max_iterations && any(size > quadratic); ++i) {
+    const auto open = size > quadratic;
+    const VolumetricStress<V> stress = spring.volumetric(t);
+    const V slope = 1 + value(rate) * stress.bulk;
+    if (!all(slope > 0)) return false;
+    const V change = (t - value(trial) + value(rate) * stress.mean) / slope;
+    t = where(open, V(t - change), t);
+    size = where(open, V(abs(change) / (1 + abs(t))), size);
   }
   theta = t;
   if constexpr (is_dual<T>) { // one more step carries the derivatives, whatever they are with respect to
     const VolumetricStress<T> stress = spring.volumetric(theta);
     theta -= (theta - trial + rate * stress.mean) / (1 + rate.v * stress.bulk.v);
   }
-  return size <= quadratic;
+  return all(size <= quadratic);
 }
 
 /// e + rate tau(e) = trial, the gradient of a convex function where all G_r alpha_r > 0. The start solves it with the
@@ -132,15 +145,17 @@ template <class T> bool MaxwellBranch<T>::solve_volumetric(const T &trial, const
 /// cases, and halving those that enlarge the residual does not save more.
 template <class T> bool MaxwellBranch<T>::solve_deviatoric(const Vector3<T> &trial, const T &rate, Vector3<T> &e) const
 {
-  const Vector3<double> target = value(trial);
-  const double s = value(rate);
-  Vector3<double> x = target / (1 + 2 * s * value(spring.shear_modulus()));
-  double size = 1;
-  for (int i = 0; i < max_iterations && size > quadratic; ++i) {
-    const DeviatoricStress<double> stress = spring.deviatoric(x);
-    const Vector3<double> residual = x - target + s * stress.tau, change = correction(stress.stiffness, s, residual);
-    x -= change;
-    size = change.cwiseAbs().maxCoeff() / (1 + x.cwiseAbs().maxCoeff());
+  using V = Value<T>;
+  const Vector3<V> target = value(trial);
+  const V s = value(rate);
+  Vector3<V> x = target / V(1 + 2 * s * value(spring.shear_modulus()));
+  V size = 1;
+  for (int i = 0; i < max_iterations && any(size > quadratic); ++i) {
+    const auto open = size > quadratic;
+    const DeviatoricStress<V> stress = spring.deviatoric(x);
+    const Vector3<V> residual = x - target + s * stress.tau, change = correction(stress.stiffness, s, residual);
+    for (int a = 0; a < 3; ++a) x[a] = where(open, V(x[a] - change[a]), x[a]);
+    size = where(open, V(largest(change) / (1 + largest(x))), size);
   }
   e = x.template cast<T>();
   if constexpr (is_dual<T>) {
@@ -148,7 +163,7 @@ template <class T> bool MaxwellBranch<T>::solve_deviatoric(const Vector3<T> &tri
     const Vector3<T> residual = e - trial + rate * stress.tau;
     e -= correction(value(stress.stiffness), s, residual);
   }
-  return size <= quadratic;
+  return all(size <= quadratic);
 }
 
 } // namespace tribogel

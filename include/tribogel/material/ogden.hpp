@@ -12,7 +12,7 @@
 namespace tribogel
 {
 
-/// The deviatoric response to the deviatoric strains e_a (sum zero). S is double or Dual<N>.
+/// The deviatoric response to the deviatoric strains e_a (sum zero). S is a scalar.
 template <class S> struct DeviatoricStress {
   /// Deviatoric principal Kirchhoff stresses [MPa].
   Vector3<S> tau = Vector3<S>::Zero();
@@ -22,7 +22,7 @@ template <class S> struct DeviatoricStress {
   Vector3<S> secant = Vector3<S>::Zero();
 };
 
-/// The volumetric response to theta = ln J. S is double or Dual<N>.
+/// The volumetric response to theta = ln J. S is a scalar.
 template <class S> struct VolumetricStress {
   S mean = 0; ///< mean Kirchhoff stress [MPa]
   S bulk = 0; ///< d mean/d theta [MPa]
@@ -39,7 +39,7 @@ enum class VolumetricLaw { logarithmic, quadratic };
 ///   W = sum_r G_r/alpha_r sum_a (exp(alpha_r e_a) - 1) + K/4 (J^2 - 2 ln J - 1)        THEORY (1.4)
 ///
 /// or with K/2 (J - 1)^2 as its volumetric part, THEORY (1.8a).
-/// T is the scalar of the parameters, double or Dual<N>. Exponents are not zero; a modulus may have any sign.
+/// T is the scalar of the parameters, double, Dual<N> or Lanes. Exponents are not zero; a modulus may have any sign.
 template <class T> struct Ogden {
   std::vector<T> moduli;    ///< G_r [MPa]
   std::vector<T> exponents; ///< alpha_r, as many
@@ -64,7 +64,7 @@ template <class T> struct Ogden {
   /// accuracy however small the strains are.
   template <class S> DeviatoricStress<S> deviatoric(const Vector3<S> &e) const
   {
-    using std::exp;
+    using std::abs, std::exp;
     DeviatoricStress<S> out;
     const Vector3<S> gap = pair_differences(e);
     for (std::size_t r = 0; r < moduli.size(); ++r) {
@@ -76,7 +76,9 @@ template <class T> struct Ogden {
         const S &p = h[pair_index[k][0]], &q = h[pair_index[k][1]];
         const S x = 0.5 * alpha * gap[k];
         // p q sinhc(x); beyond 1/2 the difference of the powers has nothing left to cancel
-        out.secant[k] += g * (std::abs(value(x)) < 0.5 ? S(p * q * sinhc_series(x)) : S((p * p - q * q) / (2 * x)));
+        const auto near = [&]() -> S { return p * q * sinhc_series(x); };
+        const auto far = [&]() -> S { return (p * p - q * q) / (2 * x); };
+        out.secant[k] += g * choose(abs(value(x)) < 0.5, near, far);
       }
     }
     const Vector3<S> jump = out.secant.cwiseProduct(gap) / 3; // (tau_a - tau_b)/3

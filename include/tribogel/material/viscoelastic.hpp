@@ -22,13 +22,15 @@ template <class T> struct Response {
   Mandel<T> tau = Mandel<T>::Zero(); ///< Kirchhoff stress, J times Cauchy's [MPa]
   /// If asked for: the Lie derivative tau_dot - l tau - tau l^T = tangent : d, consistent with the step taken;
   /// symmetric [MPa]. The values only: it is the derivative, and dual numbers do not carry second ones.
-  Mandel4<double> tangent = Mandel4<double>::Zero();
+  Mandel4<Value<T>> tangent = Mandel4<Value<T>>::Zero();
 };
 
 /// The bulk law: a value that holds its parameters and nothing else. It may be called twice, in any order, on steps
-/// that are later rejected; the caller owns the history. T is the scalar of parameters, F and history, double or
-/// Dual<N>. Without branches the law is hyperelastic, has no history and ignores the step.
+/// that are later rejected; the caller owns the history. T is the scalar of parameters, F and history, double,
+/// Dual<N> or Lanes. Without branches the law is hyperelastic, has no history and ignores the step.
 template <class T> struct Viscoelastic {
+  using Scalar = T;
+
   Ogden<T> equilibrium;
   std::vector<MaxwellBranch<T>> branches;
 
@@ -53,7 +55,7 @@ private:
   static void add_stress(const Spectral<T> &strain, const DeviatoricStress<T> &deviatoric,
                          const VolumetricStress<T> &volumetric, bool with_tangent, Response<T> &out);
   static void add_tangent(const Spectral<T> &strain, const DeviatoricStress<T> &deviatoric,
-                          const VolumetricStress<T> &volumetric, Mandel4<double> &tangent);
+                          const VolumetricStress<T> &volumetric, Mandel4<Value<T>> &tangent);
   static Matrix3<T> elastic_strain(const Spectral<T> &trial, const BranchStep<T> &step, double reach);
 };
 
@@ -73,14 +75,14 @@ template <class T>
 Response<T> Viscoelastic<T>::evaluate(const Matrix3<T> &F, const HistoryLevels<T> &history, const StepWeights &weights,
                                       T *history_new, bool with_tangent) const
 {
-  using std::log;
+  using std::isfinite, std::log;
   Response<T> out;
   const T J = F.determinant();
-  if (!(J > 0) || std::isinf(value(J))) return out.status = PointStatus::inverted, out;
+  if (!all(J > 0) || !all(isfinite(value(J)))) return out.status = PointStatus::inverted, out;
 
   const T theta = log(J);
   const Spectral<T> strain = log_strain<T>(F * F.transpose(), theta);
-  if (!strain.values.allFinite()) return out.status = PointStatus::inverted, out;
+  if (!all(isfinite(strain.values.sum()))) return out.status = PointStatus::inverted, out;
   const Vector3<T> e = strain.values.array() - theta / 3;
   out.energy = equilibrium.energy(e, theta);
   add_stress(strain, equilibrium.deviatoric(e), equilibrium.volumetric(theta), with_tangent, out);
@@ -116,23 +118,24 @@ void Viscoelastic<T>::add_stress(const Spectral<T> &strain, const DeviatoricStre
 /// shear is s_ab delta coth(delta) - tau_a - tau_b, with s_ab the secant and delta = eps_a - eps_b.
 template <class T>
 void Viscoelastic<T>::add_tangent(const Spectral<T> &strain, const DeviatoricStress<T> &deviatoric,
-                                  const VolumetricStress<T> &volumetric, Mandel4<double> &tangent)
+                                  const VolumetricStress<T> &volumetric, Mandel4<Value<T>> &tangent)
 {
-  const Vector3<double> D = value(deviatoric.stiffness), eps = value(strain.values),
-                        tau = value(deviatoric.tau).array() + value(volumetric.mean);
-  Matrix3<double> normal; // P diag(D) P + bulk 1 1^T - 2 diag(tau)
-  Vector3<double> shear;
-  const double constant = D.sum() / 9 + value(volumetric.bulk);
+  using V = Value<T>;
+  const Vector3<V> D = value(deviatoric.stiffness), eps = value(strain.values),
+                   tau = value(deviatoric.tau).array() + value(volumetric.mean);
+  Matrix3<V> normal; // P diag(D) P + bulk 1 1^T - 2 diag(tau)
+  Vector3<V> shear;
+  const V constant = D.sum() / 9 + value(volumetric.bulk);
   for (int a = 0; a < 3; ++a)
-    for (int b = 0; b < 3; ++b) normal(a, b) = constant - (D[a] + D[b]) / 3 + (a == b ? D[a] - 2 * tau[a] : 0);
+    for (int b = 0; b < 3; ++b) normal(a, b) = constant - (D[a] + D[b]) / 3 + (a == b ? V(D[a] - 2 * tau[a]) : V(0));
   for (int k = 0; k < 3; ++k) {
     const int a = pair_index[k][0], b = pair_index[k][1];
-    shear[k] = value(deviatoric.secant[k]) * x_coth(eps[a] - eps[b]) - tau[a] - tau[b];
+    shear[k] = value(deviatoric.secant[k]) * x_coth(V(eps[a] - eps[b])) - tau[a] - tau[b];
   }
-  const Mandel4<double> R = mandel_rotation(strain.axes);
-  Mandel4<double> half;
-  half.leftCols<3>().noalias() = R.leftCols<3>() * normal;
-  half.rightCols<3>().noalias() = R.rightCols<3>() * shear.asDiagonal();
+  const Mandel4<V> R = mandel_rotation(strain.axes);
+  Mandel4<V> half;
+  half.template leftCols<3>().noalias() = R.template leftCols<3>() * normal;
+  half.template rightCols<3>().noalias() = R.template rightCols<3>() * shear.asDiagonal();
   tangent.noalias() += half * R.transpose();
 }
 
@@ -145,13 +148,13 @@ Matrix3<T> Viscoelastic<T>::elastic_strain(const Spectral<T> &trial, const Branc
   Vector3<T> strain = step.strain;
   if (reach != 1) strain = trial.values + reach * (step.strain - trial.values);
   const Vector3<T> b = (2 * strain).array().exp();
-  Vector3<double> divided;
-  for (int k = 0; k < 3; ++k) {
+  Vector3<Value<T>> divided = Vector3<Value<T>>::Zero(); // read only with dual numbers
+  for (int k = 0; is_dual<T> && k < 3; ++k) {
     const int p = pair_index[k][0], q = pair_index[k][1];
-    const double x = value(strain[p]), y = value(strain[q]);
+    const Value<T> x = value(strain[p]), y = value(strain[q]);
     // (b_p - b_q)/(x - y) times (x - y)/(trial_p - trial_q), THEORY (1.16)
-    const double ratio = reach == 1 ? step.strain_ratio[k] : 1 + reach * (step.strain_ratio[k] - 1);
-    divided[k] = 2 * std::exp(x + y) * sinhc(x - y) * ratio;
+    const Value<T> ratio = reach == 1 ? step.strain_ratio[k] : Value<T>(1 + reach * (step.strain_ratio[k] - 1));
+    divided[k] = 2 * exp(Value<T>(x + y)) * sinhc(Value<T>(x - y)) * ratio;
   }
   return isotropic_function(trial, b, divided);
 }
