@@ -60,23 +60,29 @@ void triad(benchmark::State &state)
 }
 BENCHMARK(triad);
 
-void material_point(benchmark::State &state, bool viscoelastic, bool with_tangent)
+/// A row of points that are not alike.
+template <class Scalar> void material_points(benchmark::State &state, bool viscoelastic, bool with_tangent)
 {
-  const auto material = gel(viscoelastic);
-  std::vector<double> history(static_cast<std::size_t>(material.history_size()));
-  material.initial_history(history.data());
-  Matrix3<double> F;
-  F << 1.08, 0.05, 0.2, -0.03, 1.06, 0.1, 0.02, -0.04, 0.9;
-  for (auto _ : state) {
-    F(0, 0) += 1e-9;
-    benchmark::DoNotOptimize(material.evaluate(F, {history.data()}, {0.5, 0}, nullptr, with_tangent));
+  constexpr int count = 64;
+  const auto material = gel(viscoelastic).cast<Scalar>();
+  const int stride = material.history_size();
+  std::vector<double> history(static_cast<std::size_t>(count * stride)), after = history;
+  for (int q = 0; stride > 0 && q < count; ++q) gel(viscoelastic).initial_history(&history[q * stride]);
+  std::vector<Matrix3<double>> F(count);
+  std::vector<Response<double>> response(count);
+  for (int q = 0; q < count; ++q) {
+    F[q] << 1.08, 0.05, 0.2, -0.03, 1.06, 0.1, 0.02, -0.04, 0.9;
+    F[q](0, 1) += 0.002 * q;
+    F[q](2, 2) -= 0.001 * q;
   }
-  set_rate(state, "points/s", 1);
+  for (auto _ : state) {
+    F[0](0, 0) += 1e-9;
+    benchmark::DoNotOptimize(evaluate_points(material, count, F.data(), history.data(), {0.5, 1}, after.data(),
+                                             with_tangent, response.data()));
+    benchmark::ClobberMemory();
+  }
+  set_rate(state, "points/s", count);
 }
-BENCHMARK_CAPTURE(material_point, hyperelastic_stress, false, false);
-BENCHMARK_CAPTURE(material_point, hyperelastic_tangent, false, true);
-BENCHMARK_CAPTURE(material_point, viscoelastic_stress, true, false);
-BENCHMARK_CAPTURE(material_point, viscoelastic_tangent, true, true);
 
 /// A cell of about 1 mm away from the axis, deformed at random.
 template <class Kinematics, int order> struct Sample {
@@ -116,10 +122,10 @@ void cell(benchmark::State &state, Kinematics kinematics, bool viscoelastic)
 {
   using Element = MeanDilatation<Kinematics, order>;
   Sample<Kinematics, order> sample;
-  const auto material = gel(viscoelastic);
+  const auto material = gel(viscoelastic).cast<Lanes>();
   const int stride = material.history_size();
   std::vector<double> history(static_cast<std::size_t>(Element::points * stride));
-  for (int q = 0; stride > 0 && q < Element::points; ++q) material.initial_history(&history[q * stride]);
+  for (int q = 0; stride > 0 && q < Element::points; ++q) gel(viscoelastic).initial_history(&history[q * stride]);
   typename Element::template Evaluation<double> evaluation;
   typename Element::Matrix K;
   for (auto _ : state) {
@@ -175,6 +181,15 @@ template <int order> void facet_pair(benchmark::State &state, bool with_derivati
 
 int main(int argc, char **argv)
 {
+  for (const bool viscoelastic : {false, true})
+    for (const bool with_tangent : {false, true}) {
+      const std::string end =
+          std::string(viscoelastic ? "viscoelastic" : "hyperelastic") + (with_tangent ? "_tangent" : "_stress");
+      benchmark::RegisterBenchmark(("material/one_by_one/" + end).c_str(), material_points<double>, viscoelastic,
+                                   with_tangent);
+      benchmark::RegisterBenchmark(("material/lanes/" + end).c_str(), material_points<Lanes>, viscoelastic,
+                                   with_tangent);
+    }
   register_cells<1>();
   register_cells<2>();
   for (const bool derivatives : {false, true}) {
