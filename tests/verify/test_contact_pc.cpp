@@ -2,6 +2,7 @@
 /// iterations when the rest is solved exactly, in every contact state; and it changes no result.
 #include "probe.hpp"
 #include "solver_options.hpp"
+#include "wall_scenes.hpp"
 
 namespace tribogel::test
 {
@@ -38,7 +39,8 @@ struct Outcome {
   int newton, linear, slipping, sticking;
 };
 
-Outcome outcome(const Scene &scene, const OptionList &options)
+/// `rolled`: the number of nodes of walls under pressure at the end.
+Outcome outcome(const Scene &scene, const OptionList &options, int *rolled = nullptr)
 {
   const SolverOptions solver(options);
   Problem problem;
@@ -47,6 +49,9 @@ Outcome outcome(const Scene &scene, const OptionList &options)
   Outcome sum{recorder.rows.back().measurement.normal_force, recorder.rows.back().measurement.torque, 0, 0, 0, 0};
   sum.newton = problem.counts.newton_iterations;
   sum.linear = problem.counts.linear_iterations;
+  if (rolled)
+    for (const ProfileRow &row : recorder.last_profile)
+      *rolled += std::string(row.surface) == "top" && row.reference_z > 0 && row.pressure > 0;
   for (ContactStatus status : problem.contact->lower_face().statuses()) {
     sum.slipping += status == ContactStatus::slip;
     sum.sticking += status == ContactStatus::stick;
@@ -86,6 +91,28 @@ TEST(contact_pc, TakesPlatesToo)
   scene.schedule = schedule_from_rates({1, 2}, {0.8, 0.8}, {0, 0.1});
   const Outcome exact = outcome(scene, direct()), condensed = outcome(scene, with_contact_pc("lu"));
   EXPECT_NEAR(condensed.N, exact.N, 1e-7 * exact.N);
+  EXPECT_LE(condensed.linear, 4 * condensed.newton);
+}
+
+/// A wall that rolls on is a contact surface of its own, and its first row of multipliers presses on the crease too.
+TEST(contact_pc, FollowsAWallThatRollsOn)
+{
+  Scene scene = mushroom(1);
+  scene.model = Model::solid;
+  scene.mesh.elements_radial = 3;
+  scene.mesh.bottom_elements_radial = 4;
+  scene.mesh.grading = 2;
+  scene.schedule = schedule_from_rates({8, 9}, {2.2, 2.2}, {0, 0.02});
+  OptionList straight = direct(), contact = with_contact_pc("lu");
+  for (OptionList *options : {&straight, &contact}) options->emplace_back("-ts_dt", "1");
+  int rolled = 0;
+  const Outcome exact = outcome(scene, straight, &rolled), condensed = outcome(scene, contact);
+  std::printf("N %.6f N, T %.6f N mm; %d wall nodes pressed; %d linear in %d Newton iterations\n", exact.N, exact.T,
+              rolled, condensed.linear, condensed.newton);
+  EXPECT_GT(rolled, 2);
+  EXPECT_GT(exact.T, 1);
+  EXPECT_NEAR(condensed.N, exact.N, 1e-7 * exact.N);
+  EXPECT_NEAR(condensed.T, exact.T, 1e-7 * exact.N * scene.top.radius);
   EXPECT_LE(condensed.linear, 4 * condensed.newton);
 }
 
