@@ -78,11 +78,8 @@ PetscErrorCode Problem::SetUpFields()
   for (Vec v : {static_cast<Vec>(state.U), static_cast<Vec>(state.Udot), static_cast<Vec>(state.Udot_before),
                 static_cast<Vec>(before)})
     PetscCall(VecZeroEntries(v));
-  state.history = bulk->InitialHistory();
-  if (!steady()) {
-    rest = state.history;
-    shares = bulk->Shares();
-  }
+  state.history = rest = bulk->InitialHistory();
+  shares = bulk->Shares();
 
   PetscCall(DMGetLocalToGlobalMapping(mesh.dm, &mapping));
   PetscCall(ISLocalToGlobalMappingGetIndices(mapping, &to_global));

@@ -156,7 +156,7 @@ PetscErrorCode Problem::AcceptStep(PetscReal time, Vec U)
   if (U != static_cast<Vec>(state.U)) PetscCall(VecCopy(U, state.U));
   PetscCall(SetRates(step, U));
   PetscCall(EvaluateEnd(time, next, energy));
-  if (scene.time.rule == TimeRule::sdirk2 && !steady()) PetscCall(LargestStrain(next, state.largest_strain));
+  if (scene.time.rule == TimeRule::sdirk2) PetscCall(LargestStrain(next, state.largest_strain));
   stage.index = 0;
   state.history = std::move(next);
   state.stored = energy.stored;

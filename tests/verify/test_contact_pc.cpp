@@ -134,4 +134,21 @@ TEST(contact_pc, MultigridGivesTheSameForces)
   }
 }
 
+/// Elements of order 2: what multigrid begins with, fields of order 1 on the same cells, is part of what it is solved
+/// in, and better than what it finds without knowing of cells. K/G = 10.
+TEST(contact_pc, OrderTwoBeginsWithOrderOne)
+{
+  Scene scene = pressed({{0.05}, {1}}, {0, 0.1});
+  scene.mesh.element_order = 2;
+  scene.mesh.elements_radial = 2;
+  for (Specimen *body : {&scene.top, &scene.bottom})
+    body->material.equilibrium.bulk_modulus = 10 * body->material.equilibrium.shear_modulus();
+  const Outcome exact = outcome(scene, direct()), by_vertices = outcome(scene, with_contact_pc("mg")),
+                by_aggregates = outcome(scene, with_contact_pc("gamg"));
+  std::printf("linear iterations: %d, without vertices %d\n", by_vertices.linear, by_aggregates.linear);
+  EXPECT_NEAR(by_vertices.N, exact.N, 1e-7 * exact.N);
+  EXPECT_NEAR(by_vertices.T, exact.T, 1e-7 * exact.N * scene.top.radius);
+  EXPECT_LT(by_vertices.linear, 0.9 * by_aggregates.linear);
+}
+
 } // namespace tribogel::test
