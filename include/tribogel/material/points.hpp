@@ -31,7 +31,7 @@ inline PointStatus evaluate_points(const Viscoelastic<Lanes> &material, int coun
                                    Response<double> *response)
 {
   const int stride = material.history_size();
-  static thread_local std::vector<Lanes> before, after; // making them anew takes a tenth of the time
+  static thread_local std::vector<Lanes> before, after; // not made anew for each cell
   before.resize(stride);
   after.resize(stride);
   for (int first = 0; first < count; first += Lanes::count) {
