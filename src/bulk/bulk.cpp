@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <sstream>
 
@@ -41,7 +42,6 @@ public:
         const Node &node = mesh.nodes[mesh_cell.node[a]];
         std::copy_n(node.X.begin(), dim, data.X[a].begin());
         for (int i = 0; i < 3; ++i) data.dof[3 * a + i] = node.displacement + i;
-        for (int j = 0; j < dim; ++j) data.centre[j] += node.X[j] / Element::nodes;
       }
       sound = known[remembering ? cells.size() : 0].cell.set(data.X) && sound;
       for (int a = 0; a < Element::nodes; ++a)
@@ -124,6 +124,7 @@ public:
     PetscFunctionBeginUser;
     located = nullptr;
     entries.clear();
+    entries.reserve(dofs * cells.size());
     PetscCall(OwnBlock(A, own));
     if (!own) PetscFunctionReturn(0);
     PetscCall(MatGetOwnershipRange(A, &first, &last));
@@ -138,6 +139,7 @@ public:
         const PetscInt global = to_global[c.dof[k]];
         index[k] = global < 0 ? -1 : global - first;
         all_own = all_own && (global < 0 || (global >= first && global < last));
+        if (all_own && index[k] >= 0) all_own = row[index[k] + 1] - row[index[k]] < no_entry;
       }
       c.first_entry = all_own ? entries.size() : elsewhere;
       if (!all_own) continue;
@@ -149,11 +151,18 @@ public:
           c.free[k / 3] |= 1u << k % 3;
           first_free[k / 3] = index[k];
         }
-      for (PetscInt i : index)
-        for (PetscInt j : first_free)
-          entries.push_back(i < 0 || j < 0 ? -1
-                                           : static_cast<PetscInt>(
-                                                 std::lower_bound(column + row[i], column + row[i + 1], j) - column));
+      for (PetscInt i : index) {
+        EntriesOfRow of_row;
+        of_row.node.fill(no_entry);
+        if (i >= 0) {
+          const PetscInt *begin = column + row[i], *end = column + row[i + 1];
+          of_row.first = row[i];
+          for (int b = 0; b < Element::nodes; ++b)
+            if (first_free[b] >= 0)
+              of_row.node[b] = static_cast<PlaceInRow>(std::lower_bound(begin, end, first_free[b]) - begin);
+        }
+        entries.push_back(of_row);
+      }
     }
     PetscCall(MatRestoreRowIJ(own, 0, PETSC_FALSE, PETSC_FALSE, &rows, &row, &column, &known_rows));
     PetscCall(ISLocalToGlobalMappingRestoreIndices(mapping, &to_global));
@@ -202,18 +211,22 @@ public:
     return offsets;
   }
 
-  History Shares() const override
+  double SquaredStrain(const History &history) const override
   {
-    History shares;
-    for (const CellData &c : cells) {
-      const Viscoelastic<double> &law = material[c.body];
+    return SumOfSquares(history, [](const Viscoelastic<double> &law, double *weights, double *origin) {
+      std::fill_n(weights, law.history_size(), 1.0);
+      law.initial_history(origin);
+    });
+  }
+
+  double SquaredStress(const History &change) const override
+  {
+    return SumOfSquares(change, [](const Viscoelastic<double> &law, double *weights, double *) {
       double modulus = law.equilibrium.shear_modulus();
       for (const auto &branch : law.branches) modulus += branch.spring.shear_modulus();
-      for (int q = 0; q < Element::points; ++q)
-        for (const auto &branch : law.branches)
-          shares.insert(shares.end(), law.history_per_branch, branch.spring.shear_modulus() / modulus);
-    }
-    return shares;
+      for (const auto &branch : law.branches)
+        weights = std::fill_n(weights, law.history_per_branch, branch.spring.shear_modulus() / modulus);
+    });
   }
 
   bool remembers() const override { return remembering; }
@@ -241,12 +254,22 @@ private:
   struct CellData {
     int body;
     std::array<PetscInt, dofs> dof; ///< offsets in a local vector
-    std::array<double, 3> centre;
-    std::size_t history;     ///< offset of its first point
-    std::size_t first_entry; ///< in `entries`; `elsewhere` if some of its unknowns are another rank's
+    std::size_t history;            ///< offset of its first point
+    /// In `entries`; `elsewhere` if some of its unknowns are another rank's, or a row is too long.
+    std::size_t first_entry;
     std::array<unsigned char, Element::nodes> free; ///< of each node, a bit for each displacement not prescribed
     bool at_top_plate;
     std::array<typename CellType::Position, Element::nodes> X;
+  };
+
+  using PlaceInRow = std::uint16_t;
+  static constexpr PlaceInRow no_entry = std::numeric_limits<PlaceInRow>::max();
+
+  /// Where a row of a cell's tangent goes in the values of OwnBlock: from the matrix's row on, by the column's node,
+  /// the place of its first free displacement.
+  struct EntriesOfRow {
+    PetscInt first = 0;
+    std::array<PlaceInRow, Element::nodes> node; ///< no_entry where nothing is free or the row is prescribed
   };
 
   /// A cell's geometry, its last evaluation, and what that was asked.
@@ -283,16 +306,39 @@ private:
     return status;
   }
 
+  /// Sum of the squares of weight (value - origin), with the weights and origins (0 at first) that `of_point` fills in
+  /// for the internal variables of a point.
+  template <class OfPoint> double SumOfSquares(const History &history, OfPoint of_point) const
+  {
+    std::vector<double> weights[2], origin[2];
+    for (int body : {bottom_body, top_body}) {
+      weights[body].resize(material[body].history_size());
+      origin[body].resize(material[body].history_size());
+      of_point(material[body], weights[body].data(), origin[body].data());
+    }
+    double sum = 0;
+    for (const CellData &c : cells) {
+      const double *value = history.data() + c.history;
+      for (int q = 0; q < Element::points; ++q)
+        for (std::size_t k = 0; k < weights[c.body].size(); ++k, ++value) {
+          const double part = weights[c.body][k] * (*value - origin[c.body][k]);
+          sum += part * part;
+        }
+    }
+    return sum;
+  }
+
   void AddEntries(const CellData &c, const typename Element::Matrix &K, PetscScalar *values) const
   {
-    const PetscInt *place = entries.data() + c.first_entry;
-    for (int k = 0; k < dofs; ++k)
-      for (int b = 0; b < Element::nodes; ++b, ++place) {
-        if (*place < 0) continue;
-        PetscScalar *value = values + *place;
+    for (int k = 0; k < dofs; ++k) {
+      const EntriesOfRow &of_row = entries[c.first_entry + k];
+      for (int b = 0; b < Element::nodes; ++b) {
+        if (of_row.node[b] == no_entry) continue;
+        PetscScalar *value = values + of_row.first + of_row.node[b];
         for (int j = 0; j < 3; ++j)
           if (c.free[b] >> j & 1u) *value++ += K(k, 3 * b + j);
       }
+    }
   }
 
   /// The block of an AIJ matrix that this rank's unknowns share with each other; null for other types.
@@ -314,7 +360,13 @@ private:
     return u;
   }
 
-  static BulkFailure failure_of(const CellData &c, PointStatus status) { return {status, c.body, c.centre, dim}; }
+  static BulkFailure failure_of(const CellData &c, PointStatus status)
+  {
+    BulkFailure failure{status, c.body, {}, dim};
+    for (const auto &X : c.X)
+      for (int j = 0; j < dim; ++j) failure.X[j] += X[j] / Element::nodes;
+    return failure;
+  }
 
   Kinematics kinematics;
   Viscoelastic<double> material[2];
@@ -324,10 +376,8 @@ private:
   bool remembering = true;               ///< has room for what is known of every cell
   std::vector<Known> known;              ///< by cell, or one for all
   History history_before, history_after; ///< of the evaluations in `known`
-  /// Places in the values of OwnBlock, by cell, row and column's node: of the node's first free displacement, -1 where
-  /// there is none or the row is prescribed.
-  std::vector<PetscInt> entries;
-  Mat located = nullptr; ///< the matrix that `entries` is about
+  std::vector<EntriesOfRow> entries;     ///< by cell and row
+  Mat located = nullptr;                 ///< the matrix that `entries` is about
 
 public:
   bool sound = true; ///< no cell is degenerate or inside out

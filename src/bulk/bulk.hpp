@@ -57,8 +57,12 @@ public:
   /// Where each of this rank's cells begins in a History, and the History's size.
   virtual std::vector<std::size_t> HistoryOffsets() const = 0;
 
-  /// For each internal variable its branch's share of the material's shear modulus before any relaxation.
-  virtual History Shares() const = 0;
+  /// Sum of the squares of C_i^-1 - 1, over this rank's points and branches.
+  virtual double SquaredStrain(const History &history) const = 0;
+
+  /// Sum of the squares of a change of the internal variables, each times its branch's share of the material's shear
+  /// modulus before any relaxation.
+  virtual double SquaredStress(const History &change) const = 0;
 
   /// Round-off that the forces of a stress-free body carry: machine epsilon times bulk modulus times int |grad N| dV
   /// [N], added to the local array.

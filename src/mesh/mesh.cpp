@@ -51,7 +51,8 @@ PetscErrorCode Mesh::Build(MPI_Comm comm, const Scene &scene, const SerialMesh &
   dim = serial.dim;
   PetscCall(Create(comm, serial));
   PetscCall(Distribute(serial));
-  PetscCall(Number(scene));
+  PetscCall(ListNodes(scene));
+  PetscCall(Number());
   PetscCall(Tabulate());
   PetscCall(Place());
   PetscCall(Shape(serial));
@@ -63,6 +64,8 @@ PetscErrorCode Mesh::Build(MPI_Comm comm, const Scene &scene, const SerialMesh &
   for (int body : {bottom_body, top_body})
     if (scene.plate_contact && (body == bottom_body || scene.has_top))
       PetscCall(GatherSurface(*this, Side::wall, body, 1, wall[body]));
+  if (order == 1) PetscCall(DropMiddles());
+  natural = {};
   PetscFunctionReturn(0);
 }
 

@@ -58,7 +58,7 @@ public:
   /// counts on the first rank.
   PetscErrorCode Build(MPI_Comm comm, const Scene &scene, const SerialMesh &serial);
 
-  DmHandle dm;
+  DmHandle dm; ///< at order 1 in the end of cells and vertices alone
   int dim = 2;
   int order = 2;
   std::vector<Node> nodes;
@@ -74,8 +74,9 @@ private:
 
   PetscErrorCode Create(MPI_Comm comm, const SerialMesh &serial);
   PetscErrorCode Distribute(const SerialMesh &serial);
-  PetscErrorCode Number(const Scene &scene);
   PetscErrorCode ListNodes(const Scene &scene);
+  PetscErrorCode Number();
+  PetscErrorCode DropMiddles();
   PetscErrorCode Tabulate();
   PetscErrorCode Place();
   PetscErrorCode Shape(const SerialMesh &serial);

@@ -70,6 +70,7 @@ PetscErrorCode Mesh::Tabulate()
   for (std::size_t n = 0; n < nodes.size(); ++n) node_of_point[nodes[n].point] = static_cast<int>(n);
   cells.clear();
   PetscCall(DMPlexGetHeightStratum(dm, 0, &first, &last));
+  cells.reserve(last - first);
   for (PetscInt c = first; c < last; ++c) {
     MeshCell cell{};
     PetscInt body;

@@ -27,18 +27,16 @@ PetscErrorCode NaturalOrders::SetUp(const Problem &problem)
   for (std::size_t k = 0; k < problem.group.size(); ++k) // a node has one unknown of each group
     keys.push_back(static_cast<long long>(problem.mesh.nodes[problem.node_of_row[k]].natural) * residual_groups +
                    problem.group[k]);
-  PetscCall(unknowns.SetUp(comm, keys));
+  PetscCall(unknowns.SetUp(comm, keys, std::vector<int>(keys.size(), 1)));
 
   const std::vector<std::size_t> offset = problem.bulk->HistoryOffsets();
-  long long longest = 0;
-  for (std::size_t n = 0; n + 1 < offset.size(); ++n)
-    longest = std::max(longest, static_cast<long long>(offset[n + 1] - offset[n]));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &longest, 1, MPI_LONG_LONG, MPI_MAX, comm));
+  std::vector<int> lengths;
   keys.clear();
-  for (std::size_t n = 0; n + 1 < offset.size(); ++n)
-    for (std::size_t k = offset[n]; k < offset[n + 1]; ++k)
-      keys.push_back(problem.mesh.cells[n].natural * longest + static_cast<long long>(k - offset[n]));
-  PetscCall(internal.SetUp(comm, keys));
+  for (std::size_t n = 0; n + 1 < offset.size(); ++n) {
+    keys.push_back(problem.mesh.cells[n].natural);
+    lengths.push_back(static_cast<int>(offset[n + 1] - offset[n]));
+  }
+  PetscCall(internal.SetUp(comm, keys, lengths));
   PetscFunctionReturn(0);
 }
 

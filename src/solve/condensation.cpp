@@ -231,35 +231,37 @@ PetscErrorCode Condensation::AppendOwn(PetscInt row, SparseRow &entries)
   PetscFunctionReturn(0);
 }
 
-/// Row k of this rank's part of S, by rising columns.
-PetscErrorCode Condensation::ReducedRow(std::size_t k, SparseRow &entries)
+/// Of row k of this rank's part of S what is not a product: A_uu and what holds still the directions that nothing acts
+/// on.
+PetscErrorCode Condensation::OwnRow(std::size_t k, SparseRow &entries)
 {
-  PetscInt size;
-  const PetscInt *column;
-  const PetscScalar *value;
   const PetscInt row = first_reduced + static_cast<PetscInt>(k);
   PetscFunctionBegin;
   entries.clear();
   PetscCall(AppendOwn(unknowns->displacement[k], entries));
-  const std::size_t own = entries.size();
-  for (Mat part : std::initializer_list<Mat>{parts.LA_iu, parts.A_usP, parts.LA_isP}) {
-    PetscCall(MatGetRow(part, row, &size, &column, &value));
-    for (PetscInt j = 0; j < size; ++j) entries.emplace_back(column[j], value[j]);
-    PetscCall(MatRestoreRow(part, row, &size, &column, &value));
-  }
   if (const auto next = slave_at.upper_bound(row); next != slave_at.begin()) {
     const auto &[start, a] = *std::prev(next);
     for (int j = 0; j < 3 && row - start < 3; ++j) entries.emplace_back(start + j, nodes[a].idle(row - start, j));
   }
-  if (entries.size() == own) PetscFunctionReturn(0);
-  std::sort(entries.begin(), entries.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
-  auto last = entries.begin();
-  for (auto next = last + 1; next != entries.end(); ++next)
-    if (next->first == last->first)
-      last->second += next->second;
-    else
-      *++last = *next;
-  entries.erase(last + 1, entries.end());
+  PetscFunctionReturn(0);
+}
+
+/// The columns of row k, rising. All products are there.
+PetscErrorCode Condensation::ColumnsOfRow(std::size_t k, SparseRow &entries)
+{
+  PetscInt size;
+  const PetscInt *column;
+  const PetscInt row = first_reduced + static_cast<PetscInt>(k);
+  PetscFunctionBegin;
+  PetscCall(OwnRow(k, entries));
+  for (Mat part : std::initializer_list<Mat>{parts.LA_iu, parts.A_usP, parts.LA_isP}) {
+    PetscCall(MatGetRow(part, row, &size, &column, nullptr));
+    for (PetscInt j = 0; j < size; ++j) entries.emplace_back(column[j], 0);
+    PetscCall(MatRestoreRow(part, row, &size, &column, nullptr));
+  }
+  std::sort(entries.begin(), entries.end(), [](const auto &x, const auto &y) { return x.first < y.first; });
+  const auto same = [](const auto &x, const auto &y) { return x.first == y.first; };
+  entries.erase(std::unique(entries.begin(), entries.end(), same), entries.end());
   PetscFunctionReturn(0);
 }
 
@@ -272,7 +274,7 @@ PetscErrorCode Condensation::CreateReduced()
   const auto rows = static_cast<PetscInt>(unknowns->displacement.size());
   std::vector<PetscInt> on(rows), off(rows);
   for (PetscInt k = 0; k < rows; ++k) {
-    PetscCall(ReducedRow(k, entries));
+    PetscCall(ColumnsOfRow(k, entries));
     on[k] = static_cast<PetscInt>(std::count_if(entries.begin(), entries.end(), [&](const auto &entry) {
       return entry.first >= first_reduced && entry.first < first_reduced + rows;
     }));
@@ -292,11 +294,44 @@ PetscErrorCode Condensation::CreateReduced()
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Condensation::Reduce()
+PetscErrorCode Condensation::AddOwnRows()
 {
   SparseRow entries;
   std::vector<PetscInt> column;
   std::vector<PetscScalar> value;
+  PetscFunctionBegin;
+  for (std::size_t k = 0; k < unknowns->displacement.size(); ++k) {
+    const PetscInt row = first_reduced + static_cast<PetscInt>(k);
+    PetscCall(OwnRow(k, entries));
+    column.clear();
+    value.clear();
+    for (const auto &[c, v] : entries) {
+      column.push_back(c);
+      value.push_back(v);
+    }
+    PetscCall(
+        MatSetValues(parts.S, 1, &row, static_cast<PetscInt>(column.size()), column.data(), value.data(), ADD_VALUES));
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Condensation::AddRows(Mat product)
+{
+  PetscInt first_row, last_row, size;
+  const PetscInt *column;
+  const PetscScalar *value;
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(product, &first_row, &last_row));
+  for (PetscInt row = first_row; row < last_row; ++row) {
+    PetscCall(MatGetRow(product, row, &size, &column, &value));
+    PetscCall(MatSetValues(parts.S, 1, &row, size, column, value, ADD_VALUES));
+    PetscCall(MatRestoreRow(product, row, &size, &column, &value));
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Condensation::Reduce()
+{
   PetscFunctionBegin;
   PetscCall(Cut(A, parts.u, parts.s, parts.A_us));
   PetscCall(Cut(A, parts.u, parts.l, parts.A_ul));
@@ -304,27 +339,25 @@ PetscErrorCode Condensation::Reduce()
   PetscCall(Cut(A, parts.i, parts.s, parts.A_is));
   PetscCall(BuildRight());
   PetscCall(BuildLeft());
-  PetscCall(Multiply(parts.L, parts.A_iu, parts.LA_iu));
   PetscCall(Multiply(parts.L, parts.A_is, parts.LA_is));
-  PetscCall(Multiply(parts.A_us, parts.P, parts.A_usP));
-  PetscCall(Multiply(parts.LA_is, parts.P, parts.LA_isP));
   PetscCall(MatGetOwnershipRange(parts.L, &first_reduced, nullptr));
+  const struct {
+    Mat left, right;
+    MatHandle &product;
+  } products[] = {
+      {parts.L, parts.A_iu, parts.LA_iu}, {parts.A_us, parts.P, parts.A_usP}, {parts.LA_is, parts.P, parts.LA_isP}};
   if (!static_cast<Mat>(parts.S)) {
+    for (const auto &[left, right, product] : products) PetscCall(Multiply(left, right, product));
     PetscCall(MatCreateVecs(parts.A_is, parts.of_slaves.put(), parts.of_interface.put()));
     PetscCall(MatCreateVecs(parts.A_iu, parts.displacements.put(), nullptr));
     PetscCall(CreateReduced());
-  }
-  for (std::size_t k = 0; k < unknowns->displacement.size(); ++k) {
-    const PetscInt row = first_reduced + static_cast<PetscInt>(k);
-    PetscCall(ReducedRow(k, entries));
-    column.clear();
-    value.clear();
-    for (const auto &[c, v] : entries) {
-      column.push_back(c);
-      value.push_back(v);
-    }
-    PetscCall(MatSetValues(parts.S, 1, &row, static_cast<PetscInt>(column.size()), column.data(), value.data(),
-                           INSERT_VALUES));
+  } else
+    PetscCall(MatZeroEntries(parts.S));
+  PetscCall(AddOwnRows());
+  for (const auto &[left, right, product] : products) { // no two at once where an inner solver holds the rest
+    if (!static_cast<Mat>(product)) PetscCall(Multiply(left, right, product));
+    PetscCall(AddRows(product));
+    product.reset();
   }
   PetscCall(Assemble(parts.S));
   PetscFunctionReturn(0);

@@ -64,8 +64,11 @@ private:
   PetscErrorCode Eliminate();
   PetscErrorCode BuildLeft();
   PetscErrorCode AppendOwn(PetscInt row, SparseRow &entries);
-  PetscErrorCode ReducedRow(std::size_t k, SparseRow &entries);
+  PetscErrorCode OwnRow(std::size_t k, SparseRow &entries);
+  PetscErrorCode ColumnsOfRow(std::size_t k, SparseRow &entries);
   PetscErrorCode CreateReduced();
+  PetscErrorCode AddOwnRows();
+  PetscErrorCode AddRows(Mat product);
 
   std::shared_ptr<const ContactUnknowns> unknowns;
   MatHandle A;
@@ -83,7 +86,8 @@ private:
     MatHandle minus_D_inverse; ///< l by i
     MatHandle eliminated;      ///< u by i
     MatHandle L, P;            ///< u by i; s by u
-    MatHandle LA_iu, LA_is, LA_isP, A_usP;
+    MatHandle LA_is;
+    MatHandle LA_iu, LA_isP, A_usP; ///< only while S is summed: inner solvers need the room
     MatHandle S;
     VecHandle of_interface, of_slaves, displacements;
   } parts;

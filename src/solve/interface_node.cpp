@@ -28,6 +28,15 @@ Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd &M)
   return inverse;
 }
 
+/// Projection on the directions that D takes to nothing. Exactly zero if there are none: 1 - D^-1 D would be round-off,
+/// and its pseudo-inverse the inverse of that.
+Square null_projection(const Square &D)
+{
+  const Eigen::JacobiSVD<Square> svd(D, Eigen::ComputeFullV);
+  const auto rank = (svd.singularValues().array() > rank_tolerance * svd.singularValues()[0]).count();
+  return svd.matrixV().rightCols(3 - rank) * svd.matrixV().rightCols(3 - rank).transpose();
+}
+
 /// First indices of all ranks, sorted, without those that are absent.
 PetscErrorCode GatherFirsts(MPI_Comm comm, const std::vector<PetscInt> &own, std::vector<PetscInt> &all)
 {
@@ -126,8 +135,8 @@ void InterfaceNode::Classify()
     return;
   }
   D_inverse = pseudo_inverse(D);
-  const Eigen::MatrixXd lame = Square::Identity() - D_inverse * D; // multipliers without a force
-  alone = lame * pseudo_inverse(Z * lame);
+  const Square lame = null_projection(D); // multipliers without a force
+  alone = lame.isZero(0) ? lame : Square(lame * pseudo_inverse(Z * lame));
   const double stiffness = K.trace() / 3, kappa = stiffness / force_per_multiplier;
 
   Eigen::Matrix<double, 6, 3> both;

@@ -78,8 +78,7 @@ PetscErrorCode Problem::SetUpFields()
   for (Vec v : {static_cast<Vec>(state.U), static_cast<Vec>(state.Udot), static_cast<Vec>(state.Udot_before),
                 static_cast<Vec>(before)})
     PetscCall(VecZeroEntries(v));
-  state.history = rest = bulk->InitialHistory();
-  shares = bulk->Shares();
+  state.history = bulk->InitialHistory();
 
   PetscCall(DMGetLocalToGlobalMapping(mesh.dm, &mapping));
   PetscCall(ISLocalToGlobalMappingGetIndices(mapping, &to_global));

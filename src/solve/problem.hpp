@@ -115,7 +115,6 @@ public:
   std::unique_ptr<Contact> contact; ///< null where nothing can touch
   State state;
   Stage stage;
-  History rest, shares; ///< internal variables at rest; Bulk::Shares
   SolveCounts counts;
   std::string stop_request; ///< not empty: why the run is to stop after this step, the same on all ranks
   LogEvents events;
