@@ -54,10 +54,12 @@ struct InterfaceNode {
   /// Reads the node's rows of A and decides what is held.
   PetscErrorCode Read(Mat A, const InterfaceColumns &columns);
 
+  /// The second half of it, from K, D, H and Z.
+  void Classify();
+
 private:
   PetscErrorCode ReadRow(Mat A, PetscInt row, int i, Matrix3 &by_slave, Matrix3 &by_multiplier,
                          const InterfaceColumns *masters);
-  void Classify();
 };
 
 } // namespace tribogel

@@ -143,8 +143,11 @@ TEST(contact_pc, OrderTwoBeginsWithOrderOne)
   scene.mesh.elements_radial = 2;
   for (Specimen *body : {&scene.top, &scene.bottom})
     body->material.equilibrium.bulk_modulus = 10 * body->material.equilibrium.shear_modulus();
-  const Outcome exact = outcome(scene, direct()), by_vertices = outcome(scene, with_contact_pc("mg")),
-                by_aggregates = outcome(scene, with_contact_pc("gamg"));
+  scene.schedule = schedule_from_rates({1}, {0.2}, {0.1});
+  OptionList straight = direct(), vertices = with_contact_pc("mg"), aggregates = with_contact_pc("gamg");
+  for (OptionList *options : {&straight, &vertices, &aggregates}) options->emplace_back("-ts_dt", "1");
+  const Outcome exact = outcome(scene, straight), by_vertices = outcome(scene, vertices),
+                by_aggregates = outcome(scene, aggregates);
   std::printf("linear iterations: %d, without vertices %d\n", by_vertices.linear, by_aggregates.linear);
   EXPECT_NEAR(by_vertices.N, exact.N, 1e-7 * exact.N);
   EXPECT_NEAR(by_vertices.T, exact.T, 1e-7 * exact.N * scene.top.radius);
