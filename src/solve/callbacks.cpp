@@ -100,13 +100,15 @@ PetscErrorCode Predict(SNES, Vec U, void *context)
   PetscFunctionReturn(0);
 }
 
-/// Start of a Newton iteration: the surfaces may have slid out of the matrix's pattern.
+/// Start of a Newton iteration: the surfaces may have slid out of the matrix's pattern, and the residual says how far
+/// the linear solve need go.
 PetscErrorCode StartIteration(SNES snes, PetscInt)
 {
   Problem *problem;
   PetscFunctionBeginUser;
   PetscCall(SNESGetApplicationContext(snes, &problem));
   PetscCall(problem->UpdatePattern(snes));
+  PetscCall(problem->ChooseTolerance(snes));
   PetscFunctionReturn(0);
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <malloc.h>
 
 namespace tribogel
 {
@@ -286,6 +287,7 @@ PetscErrorCode Problem::BuildMatrix()
   PetscCall(TSGetSNES(ts, &snes));
   PetscCall(SNESGetKSP(snes, &ksp));
   PetscCall(KSPReset(ksp));
+  malloc_trim(0);
   *jacobian.put() = A;
   PetscCall(TSSetIJacobian(ts, A, A, nullptr, nullptr)); // null: the DM's callback stays
   PetscCall(MatSetUp(counter));

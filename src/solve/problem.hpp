@@ -7,6 +7,7 @@
 #include "mesh/cylinder.hpp"
 #include "mesh/mesh.hpp"
 #include "solve/contact_pc.hpp"
+#include "solve/direct_solver.hpp"
 #include "solve/failure.hpp"
 #include "solve/log_events.hpp"
 #include "solve/observer.hpp"
@@ -145,6 +146,7 @@ public:
   PetscErrorCode BuildMatrix();
   PetscErrorCode BeginStep(); ///< from the accepted state
   PetscErrorCode UpdatePattern(SNES snes);
+  PetscErrorCode ChooseTolerance(SNES snes);            ///< of the linear solve to come
   PetscErrorCode BeginStage(int index, PetscReal time); ///< of SDIRK2
   PetscErrorCode EndStage(int index, Vec U);
   PetscErrorCode PredictStage(Vec U) const;
@@ -171,7 +173,6 @@ private:
   PetscErrorCode SetUpTs();
   PetscErrorCode SetUpLinearSolver(SNES snes);
   PetscErrorCode HookLinearSolver(SNES snes);
-  PetscErrorCode ChooseTolerance(KSP ksp);
   PetscReal ShortestStep() const; ///< of the phase [s]
   PetscReal LongestStep() const;  ///< of the phase [s]
   PetscErrorCode RunPhase(int k);
@@ -185,8 +186,13 @@ private:
     int ended_early = -1; ///< phase
   } told;
 
-  /// At the last linear solve of this Newton solve: norm of the residual, and the relative tolerance chosen.
+  DirectSolver direct_solver;
+
+  /// How far linear solves go, and at the last one of this Newton solve: norm of the residual, and the relative
+  /// tolerance chosen.
+  enum class Forcing { given, loose, strict };
   struct {
+    Forcing rule = Forcing::given; ///< by options
     double norm = 0, tolerance = 0;
   } forcing;
 
