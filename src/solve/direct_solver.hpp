@@ -7,8 +7,8 @@ namespace tribogel
 {
 
 /// With `-ksp_type preonly` every new matrix is factorised. With `fgmres` the factors of an old one are the
-/// preconditioner for as long as that pays: between two Newton iterations, and two steps, a matrix changes little but
-/// for what begins and ceases to be held.
+/// preconditioner for as long as that pays: between two Newton iterations, and the stages of a step, a matrix changes
+/// little but for what begins and ceases to be held.
 class DirectSolver
 {
 public:
@@ -16,7 +16,9 @@ public:
   /// factorisation, in solves with its factors.
   PetscErrorCode HookInto(KSP ksp, PetscInt cost);
 
-  bool keeps_factors() const { return keeps; }
+  /// The next solve has new factors: what a solve gives must not depend on what went before its step.
+  void Forget() { matrix = 0; }
+
   PetscInt factorisations() const { return count; } ///< with what failed
 
 private:
@@ -29,7 +31,7 @@ private:
 
   bool keeps = false; ///< factors, as -ksp_type says
   PetscInt cost = 0, count = 0;
-  PetscObjectId matrix = 0; ///< of these factors
+  PetscObjectId matrix = 0; ///< of these factors, 0: none to keep
   struct {
     PetscInt solves = 0, iterations = 0, last = 0; ///< with these factors
   } since;

@@ -41,17 +41,17 @@ PetscErrorCode Problem::SetUpLinearSolver(SNES snes)
   PetscCall(SNESGetKSP(snes, &ksp));
   PetscCall(KSPGetPC(ksp, &pc));
   const bool whole_nodes = scene.has_top && scene.plate_bond == PlateBond::glued;
-  if (mesh.dim == 3 && whole_nodes && mesh.unknowns > direct_up_to) {
+  const bool multigrid = mesh.dim == 3 && whole_nodes && mesh.unknowns > direct_up_to;
+  PetscCall(KSPSetType(ksp, multigrid ? KSPGMRES : mesh.dim == 3 ? KSPFGMRES : KSPPREONLY));
+  PetscCall(KSPGMRESSetRestart(ksp, gmres_restart)); // of whichever GMRES
+  if (multigrid) {
     PetscCall(PCSetType(pc, contact_pc));
-    PetscCall(KSPSetType(ksp, KSPGMRES));
     PetscCall(KSPSetPCSide(ksp, PC_RIGHT)); // its residual is Newton's
-    PetscCall(KSPGMRESSetRestart(ksp, gmres_restart));
     PetscCall(KSPSetTolerances(ksp, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, most_iterations));
-    PetscFunctionReturn(0);
+  } else {
+    PetscCall(PCSetType(pc, PCLU));
+    PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   }
-  PetscCall(KSPSetType(ksp, mesh.dim == 3 ? KSPFGMRES : KSPPREONLY));
-  PetscCall(PCSetType(pc, PCLU));
-  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   PetscFunctionReturn(0);
 }
 

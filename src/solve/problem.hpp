@@ -121,6 +121,7 @@ public:
   LogEvents events;
   TsHandle ts;
   MatHandle jacobian;
+  DirectSolver direct_solver; ///< hooked where options ask for one
 
   // What the last evaluation left for the convergence test and for messages.
   VecHandle magnitude, round_off; ///< global: sum of absolute forces; floor of their round-off
@@ -185,8 +186,6 @@ private:
     bool beyond_speeds = false, not_unique = false;
     int ended_early = -1; ///< phase
   } told;
-
-  DirectSolver direct_solver;
 
   /// How far linear solves go, and at the last one of this Newton solve: norm of the residual, and the relative
   /// tolerance chosen.
