@@ -86,7 +86,7 @@ PetscErrorCode Predict(SNES, Vec U, void *context)
   PetscReal step;
   PetscFunctionBeginUser;
   if (problem.contact) problem.contact->BeginAttempt();
-  if (problem.stage.index == 0) problem.direct_solver.Forget();
+  if (problem.stage.index == 0 && problem.state.time > 0) problem.direct_solver.Forget();
   if (problem.scene.time.rule == TimeRule::sdirk2) {
     PetscCall(problem.PredictStage(U));
     PetscFunctionReturn(0);

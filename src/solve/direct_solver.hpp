@@ -16,7 +16,7 @@ public:
   /// factorisation, in solves with its factors.
   PetscErrorCode HookInto(KSP ksp, PetscInt cost);
 
-  /// The next solve has new factors: what a solve gives must not depend on what went before its step.
+  /// The next solve has new factors: what a step gives must not depend on what the run did before it.
   void Forget() { matrix = 0; }
 
   PetscInt factorisations() const { return count; } ///< with what failed

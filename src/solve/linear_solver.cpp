@@ -12,7 +12,8 @@ namespace
 
 /// Unknowns in space up to which a direct solver is the default. CPU seconds with kept factors and with multigrid, one
 /// load of the paper's scene, order 1: 6.5 and 20 at 18,400 unknowns, 22 and 49 at 45,400, 59 and 88 at 81,000, 163 at
-/// 145,000. MUMPS takes 2.7 GB at 81,000 and 4.8 GB at 145,000, multigrid 0.8 GB at 81,000.
+/// 145,000. MUMPS takes 2.8 GB at 81,000 and 5.0 GB at 145,000, multigrid 0.8 GB at 81,000. Order 2: 3.6 and 19 a
+/// Newton iteration at 37,700 (two_cylinders.opts, the latter beside builds).
 constexpr PetscInt direct_up_to = 100000;
 
 constexpr double largest_tolerance = 0.1; ///< of the linear solver; also for the first Newton iteration
