@@ -1,5 +1,6 @@
 #include "bulk/bulk.hpp"
 
+#include "tribogel/element/mean_dilatation.hpp"
 #include "tribogel/kinematics/axisymmetric.hpp"
 #include "tribogel/kinematics/solid.hpp"
 

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "mesh/mesh.hpp"
-#include "tribogel/element/mean_dilatation.hpp"
+#include "tribogel/element/energy.hpp"
+#include "tribogel/material/status.hpp"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>

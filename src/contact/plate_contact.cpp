@@ -3,6 +3,7 @@
 #include "contact/kernels.hpp"
 #include "contact/surface_reference.hpp"
 #include "tribogel/contact/axisymmetric_geometry.hpp"
+#include "tribogel/contact/plate.hpp"
 #include "tribogel/contact/solid_geometry.hpp"
 
 #include <algorithm>

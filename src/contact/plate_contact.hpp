@@ -4,10 +4,11 @@
 
 #include "contact/plate_frames.hpp"
 #include "mesh/mesh.hpp"
-#include "tribogel/contact/plate.hpp"
 
 namespace tribogel
 {
+
+struct PlateNodeBlock;
 
 class PlateContact
 {

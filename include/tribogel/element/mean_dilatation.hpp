@@ -8,6 +8,7 @@
 #pragma once
 
 #include "tribogel/element/cell.hpp"
+#include "tribogel/element/energy.hpp"
 #include "tribogel/material/points.hpp"
 #include "tribogel/math/tensor.hpp"
 
@@ -17,11 +18,6 @@
 
 namespace tribogel
 {
-
-/// Integrals over one cell, for the energy balance [N mm].
-struct CellEnergy {
-  double stored = 0, dissipated = 0; ///< stored now; dissipated by the dashpots during the step
-};
 
 template <class Kinematics, int order> class MeanDilatation
 {
