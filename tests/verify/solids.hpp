@@ -3,6 +3,7 @@
 
 #include "bulk_scenes.hpp"
 
+#include "tribogel/element/cell.hpp"
 #include "tribogel/kinematics/solid.hpp"
 
 #include <array>

@@ -16,6 +16,7 @@ Scene pressed(PolynomialFriction<double> friction, std::vector<double> rates)
   scene.model = Model::solid;
   scene.plate_contact = false;
   scene.mesh.grading = 1;
+  scene.time.rule = TimeRule::exponential_euler; // one solve a step
   scene.friction = std::move(friction);
   scene.top.material = scene.bottom.material = hyperelastic_gel();
   scene.schedule = schedule_from_rates({1, 2}, {0.4, 0.4}, std::move(rates));

@@ -1,6 +1,7 @@
 /// Curved outlines: the nodes, midside ones too, lie on the sphere, and areas and volumes come out at the order of the
 /// elements' geometry. A ring has no axis. Both on any number of ranks (parallel/test_ranks.cpp runs a cap).
 #include "outlines.hpp"
+#include "tribogel/element/cell.hpp"
 #include "tribogel/kinematics/axisymmetric.hpp"
 
 #include <numbers>
