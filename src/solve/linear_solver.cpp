@@ -11,10 +11,13 @@ namespace
 {
 
 /// Unknowns in space up to which a direct solver is the default. CPU seconds with kept factors and with multigrid, one
-/// load of the paper's scene, order 1: 6.5 and 20 at 18,400 unknowns, 22 and 49 at 45,400, 59 and 88 at 81,000, 163 at
-/// 145,000. MUMPS takes 2.8 GB at 81,000 and 5.0 GB at 145,000, multigrid 0.8 GB at 81,000. Order 2: 3.6 and 19 a
-/// Newton iteration at 37,700 (two_cylinders.opts, the latter beside builds).
-constexpr PetscInt direct_up_to = 100000;
+/// load of the paper's scene, order 1: 6.5 and 20 at 18,400 unknowns, 22 and 49 at 45,400, 59 and 88 at 81,000, 163 and
+/// 162 at 145,000; order 2: 13 and 131 at 18,000, 192 and 472 at 138,000. Memory is what bounds the direct solver: 5.0
+/// and 6.2 GB in the last cases, where multigrid takes 1.0 and 2.8.
+PetscInt direct_up_to(int order)
+{
+  return order == 1 ? 100000 : 150000;
+}
 
 constexpr double largest_tolerance = 0.1; ///< of the linear solver; also for the first Newton iteration
 constexpr double below_newton = 0.1;      ///< how far below Newton's own tolerance no linear solve need go
@@ -42,7 +45,7 @@ PetscErrorCode Problem::SetUpLinearSolver(SNES snes)
   PetscCall(SNESGetKSP(snes, &ksp));
   PetscCall(KSPGetPC(ksp, &pc));
   const bool whole_nodes = scene.has_top && scene.plate_bond == PlateBond::glued;
-  const bool multigrid = mesh.dim == 3 && whole_nodes && mesh.unknowns > direct_up_to;
+  const bool multigrid = mesh.dim == 3 && whole_nodes && mesh.unknowns > direct_up_to(scene.mesh.element_order);
   PetscCall(KSPSetType(ksp, multigrid ? KSPGMRES : mesh.dim == 3 ? KSPFGMRES : KSPPREONLY));
   PetscCall(KSPGMRESSetRestart(ksp, gmres_restart)); // of whichever GMRES
   if (multigrid) {
