@@ -135,6 +135,25 @@ TEST(contact_pc, MultigridGivesTheSameForces)
   }
 }
 
+/// Products by single rows are for smoothers that do not factorise: PETSc does that by rows of one pattern. K/G = 10.
+TEST(contact_pc, SmoothersMayFactorise)
+{
+  Scene scene = pressed({{0.05}, {1}}, {0, 0.1});
+  for (Specimen *body : {&scene.top, &scene.bottom})
+    body->material.equilibrium.bulk_modulus = 10 * body->material.equilibrium.shear_modulus();
+  scene.schedule = schedule_from_rates({1}, {0.2}, {0.1});
+  OptionList options = with_contact_pc("gamg");
+  options.emplace_back("-ts_dt", "1");
+  const Outcome jacobi = outcome(scene, options);
+  options.emplace_back("-condensed_mg_levels_ksp_type", "richardson");
+  options.emplace_back("-condensed_mg_levels_pc_type", "ilu");
+  const Outcome ilu = outcome(scene, options);
+  std::printf("linear iterations: Jacobi %d, ILU %d, in %d Newton iterations\n", jacobi.linear, ilu.linear, ilu.newton);
+  EXPECT_GT(ilu.newton, 1); // the second matrix is the first one to be factorised anew
+  EXPECT_NEAR(ilu.N, jacobi.N, 1e-7 * jacobi.N);
+  EXPECT_NEAR(ilu.T, jacobi.T, 1e-7 * jacobi.N * scene.top.radius);
+}
+
 /// Elements of order 2: what multigrid begins with, fields of order 1 on the same cells, is part of what it is solved
 /// in, and better than what it finds without knowing of cells. K/G = 10.
 TEST(contact_pc, OrderTwoBeginsWithOrderOne)
