@@ -98,17 +98,25 @@ PetscErrorCode UpdateVertices(PC pc, const ContactUnknowns &unknowns)
   PetscFunctionReturn(0);
 }
 
+/// Of a multigrid; 0 of anything else.
+PetscErrorCode CountLevels(PC method, PetscInt &levels)
+{
+  PetscBool multigrid;
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(method), &multigrid, PCGAMG, PCMG, ""));
+  levels = 0;
+  if (multigrid) PetscCall(PCMGGetLevels(method, &levels));
+  PetscFunctionReturn(0);
+}
+
 /// PETSc smooths with two Chebyshev steps. Nearly incompressible gels gain by more: with K/G = 144 three take 26 outer
 /// iterations a Newton iteration where two take 36, in the same time and with fewer vectors.
 PetscErrorCode SmoothMore(PC method)
 {
   constexpr PetscInt chebyshev_steps = 3;
-  PetscBool multigrid;
   PetscInt levels;
   PetscFunctionBegin;
-  PetscCall(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(method), &multigrid, PCGAMG, PCMG, ""));
-  if (!multigrid) PetscFunctionReturn(0);
-  PetscCall(PCMGGetLevels(method, &levels));
+  PetscCall(CountLevels(method, levels));
   for (PetscInt level = 1; level < levels; ++level) {
     KSP smoother;
     PetscCall(PCMGGetSmoother(method, level, &smoother));
@@ -124,14 +132,12 @@ PetscErrorCode SmoothMore(PC method)
 /// on the coarsest level, and where options put another method than Jacobi's into the smoothers.
 PetscErrorCode MultiplyRowByRow(PC method)
 {
-  PetscBool multigrid;
   PetscInt levels;
   KSP solver;
   PC below;
   PetscFunctionBegin;
-  PetscCall(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(method), &multigrid, PCGAMG, PCMG, ""));
-  if (!multigrid) PetscFunctionReturn(0);
-  PetscCall(PCMGGetLevels(method, &levels));
+  PetscCall(CountLevels(method, levels));
+  if (levels == 0) PetscFunctionReturn(0);
   for (PetscInt level = 1; level < levels; ++level) {
     Mat of_level;
     PetscBool jacobi;
