@@ -13,7 +13,7 @@ namespace
 /// Unknowns in space up to which a direct solver is the default. CPU seconds with kept factors and with multigrid, one
 /// load of the paper's scene, order 1: 7.7 and 21 at 18,400 unknowns, 20 and 38 at 45,400, 55 and 71 at 81,000, 161 and
 /// 113 at 145,000; order 2: 7.5 and 62 at 15,000, 99 and 217 at 86,000, 194 and 327 at 138,000. Memory is what bounds
-/// the direct solver: 4.9 and 6.4 GB in the last cases, where multigrid takes 1.0 and 2.7.
+/// the direct solver: 5.0 and 6.5 GB in the last cases, where multigrid takes 1.0 and 2.8.
 PetscInt direct_up_to(int order)
 {
   return order == 1 ? 100000 : 150000;
