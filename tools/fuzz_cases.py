@@ -2,6 +2,8 @@
 options files, .petscrc and PETSC_OPTIONS in some mixture."""
 import math
 
+from fuzz_meshes import damaged_mesh, same_mesh, spoiled_mesh, suspicious_mesh
+from fuzz_runs import damaged, goes_on, goes_on_changed, no_room, other_mesh, unusual_line_ends
 from fuzz_scenes import between, elements_of, number, sensible
 from fuzz_spoilers import NO_LISTS, NO_NUMBERS, SPOILERS, Case, wrong_values
 
@@ -198,7 +200,9 @@ def cut_file(random, _):
                 files={"cut.opts": bytes(damaged)})
 
 
-MAKERS = (scene_that_runs,) * 6 + (spoiled_scene,) * 9 + (damaged_file,) * 3 + (chaos,) * 4 + (cut_file,)
+MAKERS = (scene_that_runs,) * 6 + (spoiled_scene,) * 9 + (damaged_file,) * 3 + (chaos,) * 4 + (
+    cut_file, unusual_line_ends, same_mesh, spoiled_mesh, suspicious_mesh, damaged_mesh, goes_on, goes_on_changed, damaged,
+    other_mesh, no_room)
 
 
 def case_of(random, options):

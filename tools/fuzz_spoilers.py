@@ -17,12 +17,17 @@ NO_FLAGS = ("yes", "1", "0", "TRUE", "on", "truee", "true,false", "t")
 class Case:
     """How the program is started, and what must come of it."""
     about: str
-    expected: str  # refused, runs or either
+    expected: str  # refused, runs, told (refused, or run with a warning that has one of the names) or either
     settings: list = dataclasses.field(default_factory=list)  # (name, value or None): put anywhere by the caller
     words: list = dataclasses.field(default_factory=list)  # on the command line, as they are, after the settings
     names: tuple = ()  # one of them must be in a refusal
     files: dict = dataclasses.field(default_factory=dict)  # name: bytes
     variables: dict = dataclasses.field(default_factory=dict)  # of the environment
+    first: list = dataclasses.field(default_factory=list)  # words of a run before it, which completes or is stopped
+    change: dict = dataclasses.field(default_factory=dict)  # files after that run: bytes, or a function of those there
+    same_as_first: bool = False  # N at the end is that of the first run
+    asked: dict = dataclasses.field(default_factory=dict)  # options that summary.json must have, if it runs
+    room: int | None = None  # bytes that a file may have
 
 
 def refused(about, settings, *names, **more):
