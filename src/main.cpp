@@ -3,6 +3,7 @@
 #include "observe/checkpoint.hpp"
 #include "observe/progress.hpp"
 #include "scene/help.hpp"
+#include "scene/option_table.hpp"
 #include "scene/output_directory.hpp"
 #include "scene/petsc_options.hpp"
 #include "scene/report.hpp"
@@ -60,7 +61,7 @@ PetscErrorCode ReportErrors(MPI_Comm comm, const SceneInput &input, const Serial
 }
 
 /// Options -> scene -> mesh, bulk, contact -> TS -> observers -> files.
-PetscErrorCode Run(const CommandLine &line, int &status)
+PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
 {
   const MPI_Comm comm = PETSC_COMM_WORLD;
   const double start = MPI_Wtime();
@@ -81,18 +82,19 @@ PetscErrorCode Run(const CommandLine &line, int &status)
     PetscCall(ReadStoredRun(comm, old_directory, stored));
     PetscCall(AdoptOptions(stored.options));
   }
-  PetscCall(ReadScene(input));
+  PetscCall(ReadScene(sources, input));
+  if (help == HelpRequest::none) PetscCall(CheckOutputDirectory(comm, input.scene.output));
   PetscCall(MakeMesh(comm, input, mesh));
   const SerialMesh from_file = input.mesh_file.empty() ? SerialMesh{} : mesh; // for companions
   if (continues) expect_unchanged(input, stored.options);
   PetscCall(problem.SetUp(comm, input.scene, std::move(mesh)));
   PetscCall(problem.ProbeSolver());
   PetscCall(TakePetscHelp(petsc_help));
-  if (line.help == HelpRequest::petsc) {
+  if (help == HelpRequest::petsc) {
     print(help_text() + "\nPETSc\n" + petsc_help);
     PetscFunctionReturn(0);
   }
-  PetscCall(CheckUnusedOptions(line, petsc_help, input.warnings));
+  PetscCall(CheckUnusedOptions(sources, petsc_help, input.warnings));
   const std::string &directory = input.scene.output.directory;
   Recorder recorder(directory);
   Checkpoint checkpoint(recorder, input.scene.output, text_of_options(input), start);
@@ -129,11 +131,13 @@ int run(const std::vector<std::string> &words)
   if (line.help == HelpRequest::version) return print(version_text()), exit_status::completed;
   if (line.help == HelpRequest::table) return print(help_text()), exit_status::completed;
   if (line.help == HelpRequest::markdown) return print(help_markdown()), exit_status::completed;
-  check_sources(line);
-  const PetscSession petsc(line.words);
+  const OptionSources sources = read_sources(line);
+  std::vector<std::string> for_petsc = sources.words(words[0]);
+  if (line.help == HelpRequest::petsc) for_petsc.emplace_back("-help");
+  const PetscSession petsc(for_petsc, option_names());
   if (!petsc.started()) return error_status();
   int status = exit_status::completed;
-  return Run(line, status) == 0 ? status : error_status();
+  return Run(line.help, sources, status) == 0 ? status : error_status();
 }
 
 } // namespace
