@@ -66,6 +66,7 @@ const std::vector<Limit> &limits()
       {"-snes_norm_schedule", "each iteration's residual is looked at", {"always"}},
       {"-snes_function_type", "it is the forces that are looked at", {"unpreconditioned", "default"}},
       {"-snes_type", "other methods do not look at the forces or do not balance them", {"newtonls", "newtontr"}},
+      {"-snes_linesearch_type", "there are these", {"basic", "bt", "l2", "cp", "nleqerr"}},
       {"-snes_error_if_not_converged", "a step that is not solved is tried again with a shorter one", no},
       {"-ksp_error_if_not_converged", "a step that is not solved is tried again with a shorter one", no},
       // The tangent and the mesh.

@@ -44,11 +44,13 @@ std::vector<std::string> split(const std::string &text)
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-/// The same word but for a full stop, or the same number.
+/// The same word but for a full stop, or the same number; of a list one of its entries.
 bool same(const std::string &said, const std::string &value)
 {
   const std::string word = said.substr(0, said.find_last_not_of(".,;:") + 1);
   if (word == value || said == value) return true;
+  if (const std::size_t comma = value.find(','); comma != std::string::npos)
+    return same(said, value.substr(0, comma)) || same(said, value.substr(comma + 1));
   char *end_of_word = nullptr, *end_of_value = nullptr;
   const double x = std::strtod(word.c_str(), &end_of_word), y = std::strtod(value.c_str(), &end_of_value);
   return x == y && end_of_word != word.c_str() && *end_of_word == 0 && *end_of_value == 0;
