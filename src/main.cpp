@@ -22,11 +22,16 @@ namespace tribogel
 namespace
 {
 
-void print(const std::string &text)
+bool is_first_process()
 {
   int rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (rank == 0) std::fputs(text.c_str(), stdout);
+  return rank == 0;
+}
+
+void print(const std::string &text)
+{
+  if (is_first_process()) std::fputs(text.c_str(), stdout);
 }
 
 std::string version_text()
@@ -73,9 +78,7 @@ PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
   RunCost cost;
   std::string petsc_help, old_directory;
   bool completed;
-  PetscMPIInt rank;
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(ReadRestart(old_directory));
   const bool continues = !old_directory.empty();
   if (continues) {
@@ -104,7 +107,7 @@ PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
   print(scene_report(input));
 
   set_error_status(exit_status::cannot_go_on);
-  Progress progress(input.scene.schedule, rank == 0);
+  Progress progress(input.scene.schedule, is_first_process());
   recorder.on_row = [&progress](const HistoryRow &row) { progress.show(row); };
   recorder.on_first_failure = [&progress](const StepFailure &failure) { progress.show(failure); };
   recorder.on_notice = [&progress](const std::string &text) { progress.show("note: " + text); };

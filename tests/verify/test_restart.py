@@ -261,7 +261,7 @@ class Refused(Folder):
                                     ("-element_order", "2", "1"), ("-schedule_rates", "0,0.2", "0,0.1"),
                                     ("-plate_contact", "false", "true")):
             self.refuses(["-restart", "run", name, value], f"{name} = {value}", f"run has {stored}")
-        self.refuses(["-restart", "run", "-schedule_twists", "0,2"], "-schedule_twists")
+        self.refuses(["-restart", "run", "-schedule_twists", "0,2"], "-schedule_twists = 0,2: the run in run has none")
         self.refuses(["-restart", "run", "-overwrite"], "-overwrite")
         self.refuses(["-restart", "run", "-output_directory", "other"], "-output_directory = other")
         self.refuses(SHORT + ["-output_directory", "run"], "-output_directory = run", "holds a run")
