@@ -3,6 +3,7 @@
 #include "observe/checkpoint.hpp"
 #include "observe/progress.hpp"
 #include "scene/help.hpp"
+#include "scene/option_table.hpp"
 #include "scene/output_directory.hpp"
 #include "scene/petsc_options.hpp"
 #include "scene/report.hpp"
@@ -21,11 +22,16 @@ namespace tribogel
 namespace
 {
 
-void print(const std::string &text)
+bool is_first_process()
 {
   int rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (rank == 0) std::fputs(text.c_str(), stdout);
+  return rank == 0;
+}
+
+void print(const std::string &text)
+{
+  if (is_first_process()) std::fputs(text.c_str(), stdout);
 }
 
 std::string version_text()
@@ -60,7 +66,7 @@ PetscErrorCode ReportErrors(MPI_Comm comm, const SceneInput &input, const Serial
 }
 
 /// Options -> scene -> mesh, bulk, contact -> TS -> observers -> files.
-PetscErrorCode Run(const CommandLine &line, int &status)
+PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
 {
   const MPI_Comm comm = PETSC_COMM_WORLD;
   const double start = MPI_Wtime();
@@ -72,27 +78,26 @@ PetscErrorCode Run(const CommandLine &line, int &status)
   RunCost cost;
   std::string petsc_help, old_directory;
   bool completed;
-  PetscMPIInt rank;
   PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(ReadRestart(old_directory));
   const bool continues = !old_directory.empty();
   if (continues) {
     PetscCall(ReadStoredRun(comm, old_directory, stored));
     PetscCall(AdoptOptions(stored.options));
   }
-  PetscCall(ReadScene(input));
+  PetscCall(ReadScene(sources, input));
+  if (help == HelpRequest::none) PetscCall(CheckOutputDirectory(comm, input.scene.output));
   PetscCall(MakeMesh(comm, input, mesh));
   const SerialMesh from_file = input.mesh_file.empty() ? SerialMesh{} : mesh; // for companions
   if (continues) expect_unchanged(input, stored.options);
   PetscCall(problem.SetUp(comm, input.scene, std::move(mesh)));
   PetscCall(problem.ProbeSolver());
   PetscCall(TakePetscHelp(petsc_help));
-  if (line.help == HelpRequest::petsc) {
+  if (help == HelpRequest::petsc) {
     print(help_text() + "\nPETSc\n" + petsc_help);
     PetscFunctionReturn(0);
   }
-  PetscCall(CheckUnusedOptions(line, petsc_help, input.warnings));
+  PetscCall(CheckUnusedOptions(sources, petsc_help, input.warnings));
   const std::string &directory = input.scene.output.directory;
   Recorder recorder(directory);
   Checkpoint checkpoint(recorder, input.scene.output, text_of_options(input), start);
@@ -102,7 +107,7 @@ PetscErrorCode Run(const CommandLine &line, int &status)
   print(scene_report(input));
 
   set_error_status(exit_status::cannot_go_on);
-  Progress progress(input.scene.schedule, rank == 0);
+  Progress progress(input.scene.schedule, is_first_process());
   recorder.on_row = [&progress](const HistoryRow &row) { progress.show(row); };
   recorder.on_first_failure = [&progress](const StepFailure &failure) { progress.show(failure); };
   recorder.on_notice = [&progress](const std::string &text) { progress.show("note: " + text); };
@@ -129,11 +134,13 @@ int run(const std::vector<std::string> &words)
   if (line.help == HelpRequest::version) return print(version_text()), exit_status::completed;
   if (line.help == HelpRequest::table) return print(help_text()), exit_status::completed;
   if (line.help == HelpRequest::markdown) return print(help_markdown()), exit_status::completed;
-  check_sources(line);
-  const PetscSession petsc(line.words);
+  const OptionSources sources = read_sources(line);
+  std::vector<std::string> for_petsc = sources.words(words[0]);
+  if (line.help == HelpRequest::petsc) for_petsc.emplace_back("-help");
+  const PetscSession petsc(for_petsc, option_names());
   if (!petsc.started()) return error_status();
   int status = exit_status::completed;
-  return Run(line, status) == 0 ? status : error_status();
+  return Run(line.help, sources, status) == 0 ? status : error_status();
 }
 
 } // namespace

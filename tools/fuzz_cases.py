@@ -11,6 +11,7 @@ ELEMENTS_AT_MOST = 400  # of scenes that may run: more would take long without b
 HARMLESS = (["-log_view"], ["-ts_monitor"], ["-options_left"], ["-snes_converged_reason"], ["-ksp_converged_reason"],
             ["-snes_max_it", "60"], ["-malloc_debug"], ["-options_view"], ["-memory_view"], ["-snes_monitor"],
             ["-mat_view", "::ascii_info"], ["-ksp_view"], ["-ts_view"])
+LINE_ENDS, BLANKS = "\v\f\x85\u2028\u2029", "\xa0\u2003\u200b\u3000"  # that are none here
 SOLVER_NAMES = ("-snes_rtol", "-snes_atol", "-snes_stol", "-snes_max_it", "-snes_divergence_tolerance", "-snes_max_funcs",
                 "-ksp_rtol", "-ksp_atol", "-ksp_max_it", "-ts_dt", "-ts_max_steps", "-ts_max_time", "-ts_init_time",
                 "-ts_adapt_dt_min", "-ts_adapt_dt_max", "-ts_adapt_safety", "-ts_adapt_clip", "-ts_max_reject",
@@ -39,7 +40,8 @@ def as_file(random, settings):
         lines.append(line + random.choice(("", "", " # remark", "   ", "#")) if value is not None else line)
         if random.random() < 0.2:
             lines.append(random.choice(("", "# remark", "#", "   ", "# -top_radius 8", "#" * 300)))
-    return (random.choice(("\n", "\n", "\r\n")).join(lines) + random.choice(("\n", ""))).encode()
+    text = random.choice(("\n", "\n", "\r\n", "\r")).join(lines) + random.choice(("\n", ""))
+    return text.encode(random.choice(("utf-8", "utf-8", "utf-8-sig")))
 
 
 def words_of(settings):
@@ -112,7 +114,9 @@ def damaged_file(random, options):
         "a byte 0": good + random.choice((b"\n-top_height 3\0", b"\n\0", b"\n-top_radius 1\x000\n", b"\n-top\0_radius 8\n")),
         "bytes of control": good + random.choice((b"\n-top_height 4\x1b\n", b"\n-top_\x07height 4\n", b"\n\x01\n")),
         "UTF-16": good.decode().encode("utf-16"),
-        "a byte-order mark": b"\xef\xbb\xbf-top_radius 9\n",
+        "a byte-order mark within": good + b"\n\xef\xbb\xbf-top_radius 9\n",
+        "line ends of other programs": good + f"\n# remark{random.choice(LINE_ENDS)}-top_radius 9\n".encode(),
+        "blanks that are none": good + f"\n-top_radius{random.choice(BLANKS)}9\n".encode(),
         "three words in a line": good + f"\n{name} {value} {value}\n".encode(),
         "a list with blanks": good + b"\n-friction_coefficients 0, 1e-3\n",
         "a bare word": good + random.choice((b"\nword\n", b"\n=\n", b"\ntop_radius = 9\n", b"\n- top_radius 9\n", b"\n--\n")),

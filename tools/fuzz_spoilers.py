@@ -74,6 +74,8 @@ def wrong_count(random, options, settings):
     """Lists that go together get different lengths."""
     names = [o.name for o in options if o.kind == "reals" and o.name in settings and o.name != "-friction_speed_range"]
     name = random.choice(names)
+    if name == "-schedule_end_times" and "," not in settings[name]:
+        name = "-schedule_approach"  # one number holds for all phases
     texts = settings[name].split(",")
     if name == "-schedule_end_times":
         texts += [number(float(texts[-1]) + 1)]
@@ -111,9 +113,9 @@ def times_do_not_increase(random, _, settings):
 
 
 def rates_and_twists(_, __, settings):
+    """The later counts."""
     turning = settings.get("-schedule_rates", settings.get("-schedule_twists"))
-    return refused("rates and twists", settings | {"-schedule_rates": turning, "-schedule_twists": turning},
-                   "-schedule_twists")
+    return Case("rates and twists", "either", list((settings | {"-schedule_rates": turning, "-schedule_twists": turning}).items()))
 
 
 def too_much_approach(random, _, settings):

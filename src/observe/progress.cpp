@@ -39,11 +39,11 @@ void Progress::show(const HistoryRow &row)
   if (!speaks || !(ends || (terminal && MPI_Wtime() - drawn > redraw))) return;
   drawn = MPI_Wtime();
   const Measurement &m = row.measurement;
-  std::printf(
-      "%sphase %d/%zu  t = %-10.6g s  step %-9.3g s  %2d Newton  N = %-10.6g N  T = %-11.6g N mm  mu = %-10.4g%s%s",
-      terminal ? "\r" : "", row.phase, schedule.size(), row.time, row.step,
-      static_cast<int>(row.report.newton_iterations), m.normal_force, m.torque, m.mu_pressure_weighted,
-      ends ? "                     " : estimate_left(row.time).c_str(), ends ? "\n" : "  ");
+  std::printf("%sphase %d/%zu  t = %-10.6g s  step %-9.3g s  %2d Newton  N = %-10.6g N  T = %-11.6g N mm  mu weighted "
+              "= %-10.4g%s%s",
+              terminal ? "\r" : "", row.phase, schedule.size(), row.time, row.step,
+              static_cast<int>(row.report.newton_iterations), m.normal_force, m.torque, m.mu_pressure_weighted,
+              ends ? "                     " : estimate_left(row.time).c_str(), ends ? "\n" : "  ");
   std::fflush(stdout);
 }
 
@@ -73,6 +73,8 @@ void Progress::finish(const Recorder &recorder, const SolveCounts &counts, const
     std::printf("%5d %10.6g %12.6g %12.7g %14.7g %12.6g %13.6g %13.6g\n", end.phase, end.time, end.rate, m.normal_force,
                 m.torque, m.contact_radius, m.mu_apparent, m.mu_pressure_weighted);
   }
+  std::printf(
+      "mu apparent: from T by eq. (3.13) of the paper; mu weighted: of the law, over the contact, by pressure\n");
   std::printf(
       "\n%d steps (%d rejected, %d failed solves), %d Newton iterations, %.1f CPU s, %.1f s, %.0f MB on %d rank%s\n",
       static_cast<int>(counts.accepted_steps), static_cast<int>(counts.rejected_steps),

@@ -1,5 +1,6 @@
 #include "scene/option_reader.hpp"
 
+#include "scene/characters.hpp"
 #include "scene/nearest_name.hpp"
 #include "scene/parse.hpp"
 
@@ -29,7 +30,8 @@ void expect_in_range(const Option &option, const std::string &text, double value
 
 void refuse(const std::string &name, const std::string &value, const std::string &allowed)
 {
-  throw UserError{name + " = " + value + ": " + allowed};
+  const std::string odd = foreign_character(value);
+  throw UserError{name + " = " + value + ": " + (odd.empty() ? "" : "it holds " + odd + "; ") + allowed};
 }
 
 std::string OptionReader::text(const Option &option) const
@@ -85,7 +87,7 @@ std::vector<double> OptionReader::reals(const Option &option) const
   return values;
 }
 
-void OptionReader::expect_equal_lengths(const Option &list, const Option &reference) const
+void OptionReader::expect_equal_lengths(const Option &list, const Option &reference, const std::string &otherwise) const
 {
   const std::size_t length = reals(list).size(), expected = reals(reference).size();
   if (length == expected) return;
@@ -94,7 +96,7 @@ void OptionReader::expect_equal_lengths(const Option &list, const Option &refere
            std::to_string(n);
   };
   throw UserError{described(list, length) + ", " + described(reference, expected) +
-                  "; allowed: lists of equal lengths"};
+                  "; allowed: lists of equal lengths" + otherwise};
 }
 
 const Option &OptionReader::declared(const std::string &name)

@@ -58,6 +58,14 @@ std::string Option::allowed() const
   return text;
 }
 
+std::vector<std::string> option_names()
+{
+  std::vector<std::string> names;
+  for (const OptionGroup &group : option_table())
+    for (const Option &option : group.options) names.push_back(option.name);
+  return names;
+}
+
 const Option *find_option(const std::string &name)
 {
   for (const OptionGroup &group : option_table())

@@ -48,6 +48,9 @@ struct OptionGroup {
 /// All groups in the order of -help.
 const std::vector<OptionGroup> &option_table();
 
+/// The names of all of them.
+std::vector<std::string> option_names();
+
 /// The entry of that name, or null.
 const Option *find_option(const std::string &name);
 

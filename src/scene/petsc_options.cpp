@@ -2,7 +2,7 @@
 
 #include "scene/nearest_name.hpp"
 #include "scene/option_table.hpp"
-#include "scene/output_directory.hpp"
+#include "scene/petsc_limits.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -41,14 +41,6 @@ PetscErrorCode GetOption(const std::string &name, GivenOptions &given, bool &fou
   if (set) given[name] = text ? text : "";
   found = set;
   PetscFunctionReturn(0);
-}
-
-std::vector<std::string> own_names()
-{
-  std::vector<std::string> names;
-  for (const OptionGroup &group : option_table())
-    for (const Option &option : group.options) names.push_back(option.name);
-  return names;
 }
 
 std::string without_dashes(const std::string &name)
@@ -92,7 +84,7 @@ std::string unknown_text(const std::string &name, const std::string &text, const
 /// "  -name: <default> ..." or "  -name <now default> ...".
 std::vector<std::string> all_names(const std::string &help)
 {
-  std::vector<std::string> names = own_names();
+  std::vector<std::string> names = option_names();
   for (const char *name : {"-options_file", "-options_left", "-options_view", "-log_view", "-malloc_debug",
                            "-malloc_dump", "-memory_view", "-info", "-skip_petscrc", "-help"})
     names.push_back(name);
@@ -126,8 +118,9 @@ PetscErrorCode ExpectNumbers(const std::string &help)
 
 bool is_read_late(const std::string &name)
 {
-  static const char *const exact[] = {"citations", "get_total_flops", "mpidump", "objects_dump", "options_left", "help",
-                                      "h",         "skip_petscrc",    "nox",     "saved_options"};
+  static const char *const exact[] = {
+      "citations", "get_total_flops", "mpidump", "objects_dump",  "options_left",      "help",
+      "h",         "skip_petscrc",    "nox",     "saved_options", "snes_test_jacobian"};
   for (const char *word : exact)
     if (name == word) return true;
   for (const char *stem :
@@ -139,34 +132,12 @@ bool is_read_late(const std::string &name)
   return false;
 }
 
-void check_sources(const CommandLine &line)
-{
-  std::string complaint;
-  int rank;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (rank == 0) {
-    try {
-      if (const char *text = std::getenv("PETSC_OPTIONS")) check_environment_options(text);
-      if (line.names.count("skip_petscrc") == 0)
-        for (const std::string &path : standing_options_files()) check_options_file(path);
-      for (const std::string &path : line.options_files) check_options_file(path);
-    } catch (const UserError &error) {
-      complaint = error.text;
-    }
-  }
-  int length = static_cast<int>(complaint.size());
-  MPI_Bcast(&length, 1, MPI_INT, 0, MPI_COMM_WORLD);
-  complaint.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(complaint.data(), length, MPI_CHAR, 0, MPI_COMM_WORLD);
-  if (length > 0) throw UserError{complaint};
-}
-
 PetscErrorCode ReadGivenOptions(GivenOptions &given)
 {
   bool found;
   std::vector<LeftOption> left;
   PetscFunctionBeginUser;
-  for (const std::string &name : own_names()) PetscCall(GetOption(name, given, found));
+  for (const std::string &name : option_names()) PetscCall(GetOption(name, given, found));
   for (const std::string body : {"top", "bottom"}) {
     bool any = true;
     for (int branch = 2; any; ++branch) {
@@ -180,23 +151,36 @@ PetscErrorCode ReadGivenOptions(GivenOptions &given)
   PetscCall(GetLeftOptions(left));
   for (const LeftOption &option : left) {
     const std::string plain = "-" + without_dashes(option.name);
-    if (begins_like_ours(option.name) || !nearest_name(plain, own_names(), plausible_distance(plain)).empty())
-      throw UserError{unknown_text(option.name, option.text, own_names())};
+    if (begins_like_ours(option.name) || !nearest_name(plain, option_names(), plausible_distance(plain)).empty())
+      throw UserError{unknown_text(option.name, option.text, option_names())};
   }
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode ReadScene(SceneInput &input)
+PetscErrorCode ReadScene(const OptionSources &sources, SceneInput &input)
 {
-  GivenOptions given;
+  GivenOptions given, of_petsc;
+  bool found;
   PetscFunctionBeginUser;
-  PetscCall(ReadGivenOptions(given));
-  input = scene_from_options(given);
-  PetscCall(CheckOutputDirectory(PETSC_COMM_WORLD, input.scene.output));
+  try {
+    PetscCall(ReadGivenOptions(given));
+    for (const std::string &name : limited_petsc_options()) PetscCall(GetOption(name, of_petsc, found));
+    for (const auto &[name, value] : of_petsc) check_petsc_option(name, value);
+    input = scene_from_options(given);
+  } catch (const UserError &error) {
+    throw located(error, sources);
+  }
+  input.notes.insert(input.notes.begin(), sources.notes.begin(), sources.notes.end()); // the first process has them
+  const auto tolerance = of_petsc.find("-ts_atol"), control = of_petsc.find("-ts_adapt_type");
+  if (tolerance != of_petsc.end() && !given.count("-time_tolerance"))
+    input.notes.push_back("-ts_atol = " + tolerance->second + ": the steps follow it in place of -time_tolerance");
+  if (control != of_petsc.end() && control->second == "none")
+    input.notes.push_back(
+        "-ts_adapt_type = none: the steps are as long as each phase's first (-ts_dt) and follow no tolerance");
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode CheckUnusedOptions(const CommandLine &line, const std::string &petsc_help,
+PetscErrorCode CheckUnusedOptions(const OptionSources &sources, const std::string &petsc_help,
                                   std::vector<std::string> &warnings)
 {
   std::vector<LeftOption> left;
@@ -205,9 +189,7 @@ PetscErrorCode CheckUnusedOptions(const CommandLine &line, const std::string &pe
   PetscCall(GetLeftOptions(left));
   for (const LeftOption &option : left) {
     if (is_read_late(without_dashes(option.name))) continue;
-    std::string lower = option.name;
-    for (char &c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (line.names.count(lower) == 0) {
+    if (!sources.on_command_line("-" + option.name)) {
       warnings.push_back(with_value(option.name, option.text) +
                          " (from a file or PETSC_OPTIONS) was read by no part of the program");
       continue;

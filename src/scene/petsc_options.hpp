@@ -1,7 +1,7 @@
 /// PETSc's option database <-> our own strict reading.
 #pragma once
 
-#include "scene/command_line.hpp"
+#include "scene/option_sources.hpp"
 #include "scene/scene_input.hpp"
 
 #include <petscsys.h>
@@ -9,22 +9,18 @@
 namespace tribogel
 {
 
-/// Checks files and environment before PETSc reads them. The first process reads; throws UserError on all. Collective
-/// on MPI_COMM_WORLD, needs no PETSc.
-void check_sources(const CommandLine &line);
-
 /// All our options as the database has them, whatever file or line they came from. Throws UserError for a name that is
 /// not PETSc's to judge: one that begins like ours or looks like a misspelling of ours.
 PetscErrorCode ReadGivenOptions(GivenOptions &given);
 
-/// Options -> scene, output directory judged. Throws UserError. Collective on PETSC_COMM_WORLD.
-PetscErrorCode ReadScene(SceneInput &input);
+/// Options -> scene. Throws UserError, which says where an option that is wrong was read.
+PetscErrorCode ReadScene(const OptionSources &sources, SceneInput &input);
 
 /// To be called when PETSc has read all it will ever read before time stepping, after a first solve. An option that
 /// nothing has read is refused (UserError) if it stands on the command line, and becomes a warning if it came from
 /// elsewhere; one that wants a number and has none is refused. `petsc_help` is what PETSc said of its options meanwhile
 /// (TakePetscHelp); nearest names come from it.
-PetscErrorCode CheckUnusedOptions(const CommandLine &line, const std::string &petsc_help,
+PetscErrorCode CheckUnusedOptions(const OptionSources &sources, const std::string &petsc_help,
                                   std::vector<std::string> &warnings);
 
 /// Is this an option (without its dash) that PETSc reads only when it stops, when a solve ends, or whenever it likes?

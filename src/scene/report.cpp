@@ -75,6 +75,60 @@ std::string describe(const Schedule &schedule, double radius)
          number(fastest * radius) + " mm/s\n";
 }
 
+/// How the top specimen stands to the bottom one.
+std::string describe_placing(const Scene &scene)
+{
+  const Misalignment &m = scene.misalignment;
+  std::string text = "; initial gap " + number(scene.initial_gap) + " mm\n";
+  if (m.any())
+    text += "  the top plate's axis stands at x = " + number(m.offset[0]) + " mm, y = " + number(m.offset[1]) +
+            " mm from the bottom's; its face is inclined by " + number(m.tilt) + " rad\n";
+  return text;
+}
+
+std::string describe_friction(const Scene &scene)
+{
+  std::string text = "  friction: " + describe(scene.friction);
+  if (const auto &speeds = scene.friction_speeds)
+    text += ", found for " + number((*speeds)[0]) + " to " + number((*speeds)[1]) + " mm/s";
+  return text + describe_placing(scene);
+}
+
+std::string describe_mesh(const Scene &scene, const std::string &mesh_file)
+{
+  std::string text = std::string(scene.model == Model::solid ? "  solid" : "  axisymmetric") +
+                     " model, elements of order " + std::to_string(scene.mesh.element_order) + ", ";
+  if (!mesh_file.empty()) {
+    text += "mesh of " + mesh_file;
+  } else {
+    text += std::to_string(scene.mesh.elements_radial << scene.mesh.refinements) + " along the radius";
+    if (scene.has_top && scene.mesh.bottom_elements_radial > 0)
+      text += " (bottom gel: " + std::to_string(scene.mesh.bottom_elements_radial << scene.mesh.refinements) + ")";
+    text += ", grading " + number(scene.mesh.grading);
+  }
+  if (scene.has_top && scene.contact_integration == ContactIntegration::elements)
+    text += ", contact at Gauss points of each slave facet";
+  return text + "\n  side walls " + (scene.plate_contact ? "may touch the plates" : "do not feel the plates") + "\n";
+}
+
+std::string describe_time(const Scene &scene)
+{
+  if (scene.schedule_kind == ScheduleKind::steady) return "  steady states only: the way there is not computed\n";
+  std::string text = std::string("  time rule ") +
+                     (scene.time.rule == TimeRule::sdirk2 ? "sdirk2" : "exponential_euler") + ", steps to " +
+                     number(scene.time.tolerance) + " % of the largest N and T";
+  if (scene.phase_end_tolerance > 0)
+    text += "; a phase ends in one step once they change by less than " + number(scene.phase_end_tolerance) + " %";
+  return text + "\n";
+}
+
+std::string describe(const OutputParameters &output)
+{
+  std::string text = std::string(output.restart ? "  continues the run in " : "  output in ") + output.directory;
+  if (std::isfinite(output.wall_time)) text += ", stops after " + number(output.wall_time) + " s";
+  return text + "\n";
+}
+
 } // namespace
 
 std::string scene_report(const SceneInput &input)
@@ -86,17 +140,9 @@ std::string scene_report(const SceneInput &input)
                                    : "One " + shape + ", bonded to both plates\n";
   if (scene.has_top) text += describe(scene.top, "top   ", from_file);
   text += describe(scene.bottom, "bottom", from_file);
-  if (scene.has_top)
-    text += "  friction: " + describe(scene.friction) + "; initial gap " + number(scene.initial_gap) + " mm\n";
+  if (scene.has_top) text += describe_friction(scene);
   text += describe(scene.schedule, scene.has_top ? scene.top.radius : scene.bottom.radius);
-  text += std::string(scene.model == Model::solid ? "  solid" : "  axisymmetric") + " model, elements of order " +
-          std::to_string(scene.mesh.element_order) + ", ";
-  if (from_file)
-    text += "mesh of " + input.mesh_file + "\n";
-  else
-    text += std::to_string(scene.mesh.elements_radial << scene.mesh.refinements) + " along the radius, grading " +
-            number(scene.mesh.grading) + "\n";
-  text += "  output in " + scene.output.directory + "\n";
+  text += describe_mesh(scene, input.mesh_file) + describe_time(scene) + describe(scene.output);
   for (const std::string &warning : input.warnings) text += "warning: " + warning + "\n";
   for (const std::string &note : input.notes) text += "note: " + note + "\n";
   return text;

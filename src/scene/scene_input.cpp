@@ -25,8 +25,11 @@ void read_geometry(const OptionReader &reader, Scene &scene)
   scene.plate_contact = reader.flag("-plate_contact");
   if (!reader.is_given("-mesh_file") && scene.has_top && scene.top.radius > scene.bottom.radius) {
     const Option &option = OptionReader::declared("-top_radius");
-    refuse("-top_radius", reader.text(option),
-           "allowed: " + option.allowed() + ", here -bottom_radius = " + to_text(scene.bottom.radius));
+    refuse(
+        "-top_radius", reader.text(option),
+        "allowed: " + option.allowed() + ", here -bottom_radius = " + to_text(scene.bottom.radius) +
+            ". If the wider gel is the upper one, exchange the two, -top_ for -bottom_ in all options: N and T are the "
+            "same");
   }
 }
 
@@ -113,16 +116,20 @@ void read_friction(const OptionReader &reader, SceneInput &input)
   if (!idle.empty()) input.notes.push_back("without effect with -friction_law none: " + idle);
 }
 
-/// -schedule_approach; the default is the same value in each phase.
-std::vector<double> read_approach(const OptionReader &reader, std::size_t phases, std::string &text)
+/// A list with one number for each phase; a single one holds for all. `text` is the whole list.
+std::vector<double> read_per_phase(const OptionReader &reader, const Option &option, std::size_t phases,
+                                   std::string &text)
 {
-  const Option &option = OptionReader::declared("-schedule_approach");
+  std::vector<double> values = reader.reals(option);
   text = reader.text(option);
-  if (!reader.is_given(option.name))
-    for (std::size_t k = 1; k < phases; ++k) text += "," + option.fallback;
-  else
-    reader.expect_equal_lengths(option, OptionReader::declared("-schedule_end_times"));
-  return reader.is_given(option.name) ? reader.reals(option) : std::vector<double>(phases, reader.reals(option)[0]);
+  if (values.size() != 1) {
+    reader.expect_equal_lengths(option, OptionReader::declared("-schedule_end_times"),
+                                ", or one number for all phases");
+    return values;
+  }
+  const std::string one = text;
+  for (std::size_t k = 1; k < phases; ++k) text += "," + one;
+  return std::vector<double>(phases, values[0]);
 }
 
 /// What stands between the plates must keep a height > 0.
@@ -152,8 +159,9 @@ void read_schedule(const OptionReader &reader, SceneInput &input)
     if (!(ends[k] > ends[k - 1]))
       refuse(end_times.name, reader.text(end_times),
              to_text(ends[k]) + " after " + to_text(ends[k - 1]) + "; allowed: " + end_times.allowed());
-  std::string approach_text;
-  const std::vector<double> approach = read_approach(reader, ends.size(), approach_text);
+  std::string approach_text, turning_text;
+  const std::vector<double> approach =
+      read_per_phase(reader, OptionReader::declared("-schedule_approach"), ends.size(), approach_text);
   input.options.emplace_back("schedule_approach", approach_text);
 
   const Option &rates = OptionReader::declared("-schedule_rates"), &twists = OptionReader::declared("-schedule_twists");
@@ -161,11 +169,10 @@ void read_schedule(const OptionReader &reader, SceneInput &input)
   if (by_twists && reader.is_given(rates.name))
     refuse(twists.name, reader.text(twists), "allowed: not together with -schedule_rates = " + reader.text(rates));
   const Option &turning = by_twists ? twists : rates;
-  reader.expect_equal_lengths(turning, end_times);
-  const std::vector<double> values = reader.reals(turning);
+  const std::vector<double> values = read_per_phase(reader, turning, ends.size(), turning_text);
   input.scene.schedule =
       by_twists ? schedule_from_twists(ends, approach, values) : schedule_from_rates(ends, approach, values);
-  input.options.emplace_back(turning.name.substr(1), reader.text(turning));
+  input.options.emplace_back(turning.name.substr(1), turning_text);
   if (input.mesh_file.empty()) check_approach(input);
 }
 

@@ -1,5 +1,6 @@
 #include "scene/stored_options.hpp"
 
+#include "scene/option_order.hpp"
 #include "scene/option_table.hpp"
 #include "scene/parse.hpp"
 #include "scene/petsc_options.hpp"
@@ -43,14 +44,17 @@ bool may_change(const std::string &name)
   return option && option->may_change;
 }
 
+/// Unless it is given anew, in this or in another way.
 PetscErrorCode AdoptPart(const Json &part)
 {
-  PetscBool given;
   PetscFunctionBeginUser;
   for (const auto &[name, text] : part.items()) {
+    PetscBool given, otherwise = PETSC_FALSE;
     PetscCall(PetscOptionsHasName(nullptr, nullptr, name.c_str(), &given));
+    if (const char *other = other_way(name)) PetscCall(PetscOptionsHasName(nullptr, nullptr, other, &otherwise));
+    if (given || otherwise) continue;
     const auto value = text.get<std::string>();
-    if (!given) PetscCall(PetscOptionsSetValue(nullptr, name.c_str(), value.empty() ? nullptr : value.c_str()));
+    PetscCall(PetscOptionsSetValue(nullptr, name.c_str(), value.empty() ? nullptr : value.c_str()));
   }
   PetscFunctionReturn(0);
 }

@@ -47,6 +47,44 @@ FrictionCheck look(const Scene &scene, const ContactResults &results, double ste
   return found;
 }
 
+// What there is to say: a text of its own each, so that none can run into another.
+
+std::string about_negative_friction(const FrictionCheck &found, double time)
+{
+  std::ostringstream text;
+  text << "the friction coefficient is " << found.lowest << " at t = " << time << " s, r = " << found.at_radius
+       << " mm, where the gels slide at " << found.at_speed
+       << " mm/s: the law is used beyond the speeds it is good for";
+  return text.str();
+}
+
+std::string about_speed(const FrictionCheck &found, double time, double highest)
+{
+  std::ostringstream text;
+  text << "t = " << time << " s: the gels slide at up to " << found.fastest
+       << " mm/s, faster than -friction_speed_range, which ends at " << highest << " mm/s";
+  return text.str();
+}
+
+std::string about_weakening(const FrictionCheck &found, double time, double step)
+{
+  std::ostringstream text;
+  text << "t = " << time << " s: friction falls with the speed " << found.weakening
+       << " times faster than the gels' stiffness can hold over a step of " << step
+       << " s: the sliding state is not unique and what follows is one of several. Such an interface sticks and slips "
+          "for itself; a law with a rising branch at the speeds in question, lower rates or a stiffer specimen avoid "
+          "it";
+  return text.str();
+}
+
+std::string about_early_end(int phase, double time, double left)
+{
+  std::ostringstream text;
+  text << "phase " << phase + 1 << ": N and T have stopped changing at t = " << time << " s; the other " << left
+       << " s are one step";
+  return text.str();
+}
+
 } // namespace
 
 PetscErrorCode Problem::CheckFriction()
@@ -70,29 +108,14 @@ PetscErrorCode Problem::CheckFriction()
   PetscCall(DMRestoreLocalVector(mesh.dm, &U));
 
   const FrictionCheck found = look(scene, results, steady() ? 0 : state.step);
-  std::ostringstream text;
-  if (found.lowest < 0) {
-    text << "the friction coefficient is " << found.lowest << " at t = " << state.time << " s, r = " << found.at_radius
-         << " mm, where the gels slide at " << found.at_speed
-         << " mm/s: the law is used beyond the speeds it is good for";
-    stop_reason = text.str();
-  }
+  if (found.lowest < 0) stop_reason = about_negative_friction(found, state.time);
   if (scene.friction_speeds && found.fastest > (*scene.friction_speeds)[1] && !told.beyond_speeds) {
     told.beyond_speeds = true;
-    text << "t = " << state.time << " s: the gels slide at up to " << found.fastest
-         << " mm/s, faster than -friction_speed_range, which ends at " << (*scene.friction_speeds)[1] << " mm/s";
-    PetscCall(Notify(text.str()));
+    PetscCall(Notify(about_speed(found, state.time, (*scene.friction_speeds)[1])));
   }
   if (found.weakening > 1 && !told.not_unique) {
     told.not_unique = true;
-    text.str("");
-    text
-        << "t = " << state.time << " s: friction falls with the speed " << found.weakening
-        << " times faster than the gels' stiffness can hold over a step of " << state.step
-        << " s: the sliding state is not unique and what follows is one of several. Such an interface sticks and slips "
-           "for itself; a law with a rising branch at the speeds in question, lower rates or a stiffer specimen avoid "
-           "it";
-    PetscCall(Notify(text.str()));
+    PetscCall(Notify(about_weakening(found, state.time, state.step)));
   }
   PetscFunctionReturn(0);
 }
@@ -110,10 +133,7 @@ PetscErrorCode Problem::EndPhaseEarly()
     if (std::abs(state.load_rates[k]) * left > scene.phase_end_tolerance / 100 * state.largest[k])
       PetscFunctionReturn(0);
   PetscCall(TSSetTimeStep(ts, left));
-  std::ostringstream text;
-  text << "phase " << state.phase + 1 << ": N and T have stopped changing at t = " << state.time << " s; the other "
-       << left << " s are one step";
-  if (told.ended_early != state.phase) PetscCall(Notify(text.str()));
+  if (told.ended_early != state.phase) PetscCall(Notify(about_early_end(state.phase, state.time, left)));
   told.ended_early = state.phase;
   PetscFunctionReturn(0);
 }

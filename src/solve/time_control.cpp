@@ -23,6 +23,7 @@ namespace
 constexpr double shortest_of_interest = 1.0 / 500;
 /// A run that creeps on with shorter steps than this part of a phase's first does not get anywhere.
 constexpr double smallest_of_first = 1e-4;
+constexpr PetscInt most_rejections = 20; ///< of one step, unless options say otherwise
 
 /// TS's error estimate, of what is looked at: the local error of N and T, from the second difference of their last
 /// three values as TS takes it of U (h^2/2 times the second derivative), over `-ts_atol` times their largest values so
@@ -115,7 +116,7 @@ PetscErrorCode Problem::SetUpTs()
   PetscCall(TSSetExactFinalTime(ts, TS_EXACTFINALTIME_MATCHSTEP));
   PetscCall(TSSetMaxSteps(ts, PETSC_MAX_INT));
   PetscCall(TSSetMaxSNESFailures(ts, -1)); // the limit is per step, below
-  PetscCall(TSSetMaxStepRejections(ts, 20));
+  PetscCall(TSSetMaxStepRejections(ts, most_rejections));
   PetscCall(TSSetErrorIfStepFails(ts, PETSC_FALSE));
   PetscCall(TSSetPreStep(ts, PreStep));
   PetscCall(TSSetPostStage(ts, PostStage));
@@ -344,11 +345,19 @@ PetscErrorCode Problem::TellFailure()
 std::string Problem::Explain(TSConvergedReason reason) const
 {
   std::ostringstream text;
+  const auto reached = [&](const char *option) {
+    text << option << " reached at t = " << state.time << " s (phase " << state.phase + 1 << ")";
+  };
   if (reason == TS_CONVERGED_ITS) {
-    text << "-ts_max_steps reached at t = " << state.time << " s (phase " << state.phase + 1 << ")";
+    reached("-ts_max_steps");
     return text.str();
   }
-  text << "no step from t = " << state.time << " s (phase " << state.phase + 1 << ") succeeds, however small";
+  if (reason == TS_DIVERGED_NONLINEAR_SOLVE)
+    reached("-ts_max_snes_failures"); // without it failures are not counted
+  else if (reason == TS_DIVERGED_STEP_REJECTED && static_cast<TS>(ts)->max_reject != most_rejections)
+    reached("-ts_max_reject");
+  else
+    text << "no step from t = " << state.time << " s (phase " << state.phase + 1 << ") succeeds, however small";
   if (!last_failure.words.empty()) text << ": " << last_failure.words;
   text << " (" << TSConvergedReasons[reason] << ")";
   return text.str();

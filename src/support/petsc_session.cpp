@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iterator>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <thread>
@@ -25,7 +26,8 @@ int status_of_errors = exit_status::bad_input;
 std::string caught_help;
 bool keeps_errors = false;
 std::string kept_error;
-std::string sources;                      ///< the words that tell PETSc where to read options
+std::vector<std::string> given_words;     ///< all that PETSc is told
+std::vector<std::string> names_of_others; ///< options in there that are not PETSc's
 constexpr std::size_t longest_word = 200; ///< of a message; a damaged file may hold any
 PetscErrorCode (*const print_as_ever)(FILE *, const char[], std::va_list) = PetscVFPrintf;
 
@@ -42,46 +44,60 @@ std::vector<std::string> split(const std::string &text)
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-/// The same word but for a full stop, or the same number.
+/// The same word but for a full stop, or the same number; of a list one of its entries.
 bool same(const std::string &said, const std::string &value)
 {
   const std::string word = said.substr(0, said.find_last_not_of(".,;:") + 1);
   if (word == value || said == value) return true;
+  if (const std::size_t comma = value.find(','); comma != std::string::npos)
+    return same(said, value.substr(0, comma)) || same(said, value.substr(comma + 1));
   char *end_of_word = nullptr, *end_of_value = nullptr;
   const double x = std::strtod(word.c_str(), &end_of_word), y = std::strtod(value.c_str(), &end_of_value);
   return x == y && end_of_word != word.c_str() && *end_of_word == 0 && *end_of_value == 0;
 }
 
-/// The options in the database whose value is a word of the message: PETSc does not say which one it could not read.
-/// Before there is a database: where PETSc was told to read.
+/// The options whose value is a word of the message: PETSc does not say which one it could not read. From the database,
+/// and before there is one from the words that PETSc was given.
 std::string options_behind(const std::string &message)
 {
   char *all = nullptr;
   PetscBool ready = PETSC_FALSE;
   PetscInitialized(&ready);
-  if (!ready) return sources;
-  if (PetscOptionsGetAll(nullptr, &all) != 0 || !all) return {};
+  if (ready && (PetscOptionsGetAll(nullptr, &all) != 0 || !all)) return {};
   std::string unquoted = message;
   std::replace(unquoted.begin(), unquoted.end(), '"', ' ');
-  const std::vector<std::string> words = split(all), said = split(unquoted);
+  const std::vector<std::string> words = all ? split(all) : given_words, said = split(unquoted);
   PetscFree(all);
   std::string found;
   for (std::size_t i = 1; i < words.size(); ++i)
     if (words[i - 1][0] == '-' &&
+        std::find(names_of_others.begin(), names_of_others.end(), words[i - 1]) == names_of_others.end() &&
         std::any_of(said.begin(), said.end(), [&](const std::string &word) { return same(word, words[i]); }))
       found += (found.empty() ? "" : ", ") + words[i - 1] + " = " + words[i];
   return found;
 }
 
-/// "-options_file = a, -options_string_yaml = b": where the words, and PETSC_OPTIONS_YAML, say that options are.
-std::string sources_in(const std::vector<std::string> &words)
+/// Options that have been read already and that PETSc would read again, by other rules: hidden from it while this
+/// lives.
+class HiddenVariable
 {
-  std::string found;
-  for (std::size_t i = 1; i + 1 < words.size(); ++i)
-    if (words[i].starts_with("-options_")) found += (found.empty() ? "" : ", ") + words[i] + " = " + words[i + 1];
-  if (std::getenv("PETSC_OPTIONS_YAML")) found += std::string(found.empty() ? "" : ", ") + "PETSC_OPTIONS_YAML";
-  return found;
-}
+public:
+  explicit HiddenVariable(const char *its_name) : name(its_name)
+  {
+    if (const char *now = std::getenv(name)) text = now;
+    unsetenv(name);
+  }
+  HiddenVariable(const HiddenVariable &) = delete;
+  HiddenVariable &operator=(const HiddenVariable &) = delete;
+  ~HiddenVariable()
+  {
+    if (text) setenv(name, text->c_str(), 1);
+  }
+
+private:
+  const char *name;
+  std::optional<std::string> text;
+};
 
 void catch_text(const char format[], std::va_list list)
 {
@@ -169,18 +185,25 @@ void print_line(const char *kind, const std::string &text)
 
 } // namespace
 
-PetscSession::PetscSession(const std::vector<std::string> &words) : texts(words)
+PetscSession::PetscSession(const std::vector<std::string> &words, const std::vector<std::string> &not_petscs)
+    : texts(words)
 {
+  static const std::string no_files = "-skip_petscrc";
+  const bool asked = std::find(texts.begin(), texts.end(), no_files) != texts.end();
+  if (!asked) texts.push_back(no_files);
   for (std::string &text : texts) pointers.push_back(text.data());
   pointers.push_back(nullptr);
   arguments = pointers.data();
-  sources = sources_in(words);
+  given_words = texts;
+  names_of_others = not_petscs;
   int count = static_cast<int>(texts.size());
   PetscHelpPrintf = CatchHelp;
   PetscVFPrintf = CatchTypeLists;
   PetscPushErrorHandler(ReportError, nullptr); // for good: popping it fails when -malloc_debug began in between
+  const HiddenVariable options("PETSC_OPTIONS"), more_options("PETSC_OPTIONS_YAML");
   is_started = PetscInitialize(&count, &arguments, nullptr, nullptr) == 0 &&
                PetscOptionsSetValue(nullptr, "-help", nullptr) == 0;
+  if (is_started && !asked) PetscOptionsClearValue(nullptr, no_files.c_str());
 }
 
 PetscSession::~PetscSession()

@@ -11,11 +11,14 @@ namespace tribogel
 
 /// Starts PETSc and stops it at the end of its life; MPI must be running. PETSc's errors become one line on stderr,
 /// "tribogel: error: ..."; one that only a single process of several meets ends them all. PETSc's help texts are asked
-/// for and caught, not printed: they tell the names it knows.
+/// for and caught, not printed: they tell the names it knows. Its options are the words, nothing else: no file and no
+/// variable of the environment.
 class PetscSession
 {
 public:
-  explicit PetscSession(const std::vector<std::string> &words); ///< as in argv, the program's name first
+  /// The words as in argv, the program's name first; names among them of options that PETSc does not read, and that are
+  /// not to blame for what it cannot read.
+  explicit PetscSession(const std::vector<std::string> &words, const std::vector<std::string> &not_petscs = {});
   ~PetscSession();
   PetscSession(const PetscSession &) = delete;
   PetscSession &operator=(const PetscSession &) = delete;

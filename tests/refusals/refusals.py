@@ -65,15 +65,20 @@ REFUSALS = [
     ("no whole number", ["-element_order", "1.5"], ["-element_order = 1.5"]),
     ("end times not increasing", ["-schedule_end_times", "27,3600,3600,5400,6300"],
      ["-schedule_end_times = 27,3600,3600,5400,6300", "increasing"]),
-    ("rates and twists", ["-schedule_rates", "0,0,0,0,1", "-schedule_twists", "0,0,0,0,1"],
-     ["-schedule_twists = 0,0,0,0,1", "-schedule_rates"]),
     ("missing options file", ["-options_file", "no/such.opts"], ["-options_file = no/such.opts"]),
     ("options file that is a directory", ["-options_file", "."], ["-options_file = .", "directory"]),
     ("options file not named", ["-options_file"], ["-options_file", "value missing"]),
     ("blanks for commas in a file", ["-options_file", "blanks.opts"],
      ["blanks.opts line 2", "-friction_coefficients = 0", "8e-4"]),
     ("word without a dash in a file", ["-options_file", "bare.opts"], ["bare.opts line 1", "top_radius"]),
-    ("wrong value in a file", ["-options_file", "zero.opts"], ["-top_height = 0"]),
+    ("wrong value in a file", ["-options_file", "zero.opts"], ["-top_height = 0", "zero.opts line 1"]),
+    ("wrong value after a lone CR", ["-options_file", "old_mac.opts"], ["-top_height = 0", "old_mac.opts line 2"]),
+    ("UTF-16", ["-options_file", "utf16.opts"], ["-options_file = utf16.opts", "UTF-8"]),
+    ("line separator in a remark", ["-options_file", "separator.opts"], ["separator.opts: line 1", "line separator (U+2028)"]),
+    ("minus sign that is none", ["-schedule_rates", "0,0,0,0,\u22121"], ["-schedule_rates = 0,0,0,0,", "minus sign (U+2212)"]),
+    ("dash that is none", ["\u2013top_radius", "8"], ["stray", "en dash (U+2013)"]),
+    ("bytes that are no text", ["-output_directory", b"\xff"], ["-output_directory = ?", "0xFF"]),
+    ("empty word", ["-overwrite", ""], ["-overwrite: value missing, an empty word"]),
     ("output below a regular file", ["-output_directory", "a_file/run"], ["-output_directory = a_file/run",
                                                                           "not a directory"]),
     ("output with too long a name", ["-output_directory", "new/" + "x" * 300], ["-output_directory = new/x", "name too long"]),
@@ -82,7 +87,16 @@ REFUSALS = [
     ("options file that is a device", ["-options_file", "/dev/zero"], ["-options_file = /dev/zero", "device"]),
     ("options file that cannot be read", ["-options_file", "/proc/self/mem"], ["-options_file = /proc/self/mem"]),
     ("equals sign", ["-options_file", "equals.opts"], ["-task=simulate: unknown"]),
-    ("solver option without its number", ["-snes_atol"], ["-snes_atol: value missing"]),
+    ("solver option without its number", ["-snes_rtol"], ["-snes_rtol: value missing"]),
+    ("another time span", ["-ts_time_span", "0,5,9"], ["-ts_time_span = 0,5,9", "use -schedule_end_times"]),
+    ("another beginning", ["-ts_init_time", "5"], ["-ts_init_time = 5", "-restart"]),
+    ("another end", ["-ts_max_time", "5"], ["-ts_max_time = 5", "use -schedule_end_times"]),
+    ("an end that is not met", ["-ts_exact_final_time", "stepover"], ["-ts_exact_final_time = stepover", "matchstep"]),
+    ("shortest step", ["-ts_adapt_dt_min", "1"], ["-ts_adapt_dt_min = 1", "-ts_dt"]),
+    ("step control that needs what is not there", ["-ts_adapt_type", "glee"], ["-ts_adapt_type = glee", "basic or dsp or none"]),
+    ("another test of convergence in a file", ["-options_file", "skip.opts"],
+     ["-snes_convergence_test = skip", "-snes_rtol", "skip.opts line 2"]),
+    ("what PETSc cannot take", ["-initial_gap", "0", "-ts_adapt_dt_max", "0"], ["error: -ts_adapt_dt_max = 0: "]),
     ("unknown step control", ["-ts_adapt_type", "fast"], ["-ts_adapt_type = fast"]),
     ("file with a byte 0", ["-options_file", "zero_byte.opts"], ["zero_byte.opts", "line 1 is no text"]),
     ("wrong YAML", ["-options_file", "wrong.yaml"], ["-options_file = wrong.yaml", "YAML"]),
@@ -90,9 +104,11 @@ REFUSALS = [
     ("an endless value", ["-top_height", "9x" * 30000], ["-top_height = 9x9x9x", "9x..."]),
     ("1e11 elements", ["-elements_radial", "330000"], ["-elements_radial = 330000", "e+11 elements"]),
     ("stray word", ["fig06.opts"], ["fig06.opts", "stray"]),
+    ("options file without its option", ["zero.opts"], ["zero.opts", "stray", "-options_file zero.opts"]),
+    ("run without its option", ["a_text"], ["a_text", "stray", "-restart a_text"]),
     ("word after a flag", ["-overwrite", "a_run"], ["-overwrite = a_run"]),
     ("zero height", ["-top_height", "0"], ["-top_height = 0", "> 0"]),
-    ("top wider than bottom", ["-top_radius", "13"], ["-top_radius = 13", "-bottom_radius"]),
+    ("top wider than bottom", ["-top_radius", "13"], ["-top_radius = 13", "-bottom_radius", "exchange the two"]),
     ("more approach than height", ["-schedule_approach", "1,1,1,1,9"], ["-schedule_approach = 1,1,1,1,9", "8.4 mm"]),
     ("model that is none", ["-model", "spherical"], ["-model = spherical", "axisymmetric"]),
     ("negative exponent", ["-friction_exponents", "0,-0.5"], ["-friction_exponents = 0,-0.5", ">= 0"]),
@@ -161,6 +177,14 @@ RUNS = [
     ("unused solver option in a file", ["-options_file", "unused.opts"] + SMALL, ["warning: -pc_hypre_type"]),
     ("mesh file with sizes", SOLID + ["-mesh_file", "good.msh", "-top_radius", "3", "-mesh_grading", "9"] + BRIEF,
      ["note: without effect with -mesh_file: -top_radius, -mesh_grading", "mesh of good.msh"]),
+    ("twists after the rates of a file", SMALL[:-2] + ["-options_file", "rates.opts", "-schedule_twists", "0.2"],
+     ["note: -schedule_rates = 0.1 (in options file rates.opts line 2) gives way to -schedule_twists = 0.2",
+      " 0.2    0.03183\n"]),
+    ("rates of a file after twists", SMALL[:-2] + ["-schedule_twists", "0.2", "-options_file", "rates.opts"],
+     ["gives way to -schedule_rates = 0.1", " 0.1    0.01592\n"]),
+    ("time rule of PETSc that is ours", ["-ts_exact_final_time", "matchstep", "-ts_adapt_type", "dsp", "-snes_type", "newtontr"]
+     + SMALL, ["complete; files in"]),
+    ("help of PETSc beside a run", ["-help", "petsc", "-output_directory", "a_run"], ["-snes_max_it", "-friction_law"]),
     ("help", ["-help"], ["-friction_coefficients", "default: 0,8e-4", "MPa s"]),
     ("version", ["-version"], ["tribogel "]),
 ]
@@ -180,6 +204,11 @@ def prepare(directory):
     (directory / "equals.opts").write_text("-task=simulate\n")
     (directory / "zero_byte.opts").write_text("-top_height 4\0 5\n")
     (directory / "wrong.yaml").write_text("top_height: [4\n")
+    (directory / "old_mac.opts").write_bytes(b"# mine\r-top_height 0\r")
+    (directory / "utf16.opts").write_bytes("-top_height 4\n".encode("utf-16"))
+    (directory / "separator.opts").write_text("# mine\u2028-top_height 4\n", encoding="utf-8")
+    (directory / "skip.opts").write_text("# no test\n-snes_convergence_test skip\n")
+    (directory / "rates.opts").write_bytes(b"\xef\xbb\xbf# mine\r-schedule_rates 0.1\r")
     (directory / "unused.opts").write_text("-pc_hypre_type boomeramg\n")
     prepare_meshes(directory)
 

@@ -7,8 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <set>
 
 using namespace tribogel;
@@ -16,31 +14,10 @@ using namespace tribogel;
 namespace
 {
 
-/// The text of the refusal; empty if there was none.
-template <class F> std::string refusal(F &&work)
-{
-  try {
-    work();
-  } catch (const UserError &error) {
-    return error.text;
-  }
-  return {};
-}
-
 bool contains(const std::string &text, const std::string &part)
 {
   return text.find(part) != std::string::npos;
 }
-
-struct TemporaryFile {
-  std::string path;
-  TemporaryFile(const std::string &name, const std::string &content)
-      : path((std::filesystem::temp_directory_path() / (std::to_string(getpid()) + name)).string())
-  {
-    std::ofstream(path) << content;
-  }
-  ~TemporaryFile() { std::filesystem::remove(path); }
-};
 
 } // namespace
 
@@ -156,95 +133,4 @@ TEST(OptionTable, says_what_is_allowed)
   EXPECT_FALSE(positive.contains(0));
   EXPECT_TRUE(non_negative.contains(0));
   EXPECT_FALSE(non_negative.contains(std::numeric_limits<double>::quiet_NaN()));
-}
-
-TEST(CommandLine, tells_names_from_negative_values)
-{
-  for (const char *word : {"-a", "--long", "-info", "-top_radius", "-e4", "-nanny"})
-    EXPECT_TRUE(is_option_name(word)) << word;
-  for (const char *word : {"a", "-", "--", "-3", "-.5", "-3e4", "-1,2", "-inf", "-nan", "", "8e-4"})
-    EXPECT_FALSE(is_option_name(word)) << word;
-}
-
-TEST(CommandLine, keeps_names_values_and_files_apart)
-{
-  const CommandLine line = read_command_line({"tribogel", "-options_file", "a.opts", "-initial_gap", "-.5",
-                                              "-overwrite", "-Top_Radius", "3", "-options_file", "b.opts"});
-  EXPECT_EQ(line.options_files, (std::vector<std::string>{"a.opts", "b.opts"}));
-  EXPECT_EQ(line.names, (std::set<std::string>{"initial_gap", "overwrite", "top_radius"}));
-  EXPECT_EQ(line.words.size(), 10u);
-  EXPECT_EQ(line.help, HelpRequest::none);
-}
-
-TEST(CommandLine, follows_prefixes)
-{
-  const CommandLine line =
-      read_command_line({"tribogel", "-prefix_push", "top_", "-radius", "3", "-prefix_pop", "-bottom_radius", "5"});
-  EXPECT_EQ(line.names, (std::set<std::string>{"top_radius", "bottom_radius"}));
-  EXPECT_NE(refusal([] { read_command_line({"tribogel", "-prefix_pop"}); }), "");
-}
-
-TEST(CommandLine, refuses_stray_words)
-{
-  const auto stray = [](std::vector<std::string> words) {
-    words.insert(words.begin(), "tribogel");
-    return refusal([&] { read_command_line(words); });
-  };
-  EXPECT_TRUE(contains(stray({"scene.opts"}), "scene.opts"));
-  EXPECT_TRUE(contains(stray({"-friction_coefficients", "0", "8e-4"}), "8e-4"));
-  EXPECT_TRUE(contains(stray({"-friction_coefficients", "0", "8e-4"}), "-friction_coefficients = 0"));
-  EXPECT_TRUE(contains(stray({"-options_file"}), "-options_file"));
-  EXPECT_EQ(stray({"-overwrite", "-top_radius", "9"}), "");
-}
-
-TEST(CommandLine, takes_out_help_and_version)
-{
-  EXPECT_EQ(read_command_line({"tribogel", "-help"}).help, HelpRequest::table);
-  EXPECT_EQ(read_command_line({"tribogel", "-top_radius", "3", "-h"}).help, HelpRequest::table);
-  EXPECT_EQ(read_command_line({"tribogel", "-help", "petsc"}).help, HelpRequest::petsc);
-  EXPECT_EQ(read_command_line({"tribogel", "-help", "markdown"}).help, HelpRequest::markdown);
-  const CommandLine line = read_command_line({"tribogel", "-version", "-overwrite"});
-  EXPECT_EQ(line.help, HelpRequest::version);
-  EXPECT_EQ(line.words, (std::vector<std::string>{"tribogel", "-overwrite"}));
-  EXPECT_TRUE(contains(refusal([] { read_command_line({"tribogel", "-help", "me"}); }), "petsc or markdown"));
-}
-
-TEST(CommandLine, judges_PETSC_OPTIONS)
-{
-  EXPECT_EQ(refusal([] { check_environment_options(" -a 1  -b -c -2.5 "); }), "");
-  EXPECT_TRUE(contains(refusal([] { check_environment_options("-a 1 2"); }), "2: stray"));
-  EXPECT_TRUE(contains(refusal([] { check_environment_options("word"); }), "PETSC_OPTIONS"));
-  EXPECT_TRUE(contains(refusal([] { check_environment_options("-help"); }), "command line only"));
-}
-
-TEST(OptionsFile, takes_comments_bare_names_and_values)
-{
-  const TemporaryFile file("good.opts", "# head\n\n  -overwrite\n-top_radius 9 # mm\n\t-initial_gap\t-.5\n");
-  EXPECT_EQ(refusal([&] { check_options_file(file.path); }), "");
-}
-
-TEST(OptionsFile, refuses_with_file_line_and_option)
-{
-  const TemporaryFile blanks("blanks.opts", "# head\n-friction_coefficients 0 8e-4\n");
-  const std::string text = refusal([&] { check_options_file(blanks.path); });
-  EXPECT_TRUE(contains(text, blanks.path + " line 2")) << text;
-  EXPECT_TRUE(contains(text, "-friction_coefficients = 0")) << text;
-  EXPECT_TRUE(contains(text, "8e-4: stray")) << text;
-  const TemporaryFile bare("bare.opts", "top_radius 9\n");
-  EXPECT_TRUE(contains(refusal([&] { check_options_file(bare.path); }), "top_radius"));
-  for (const char control : {'\0', '\x1b', '\x7f'}) {
-    const TemporaryFile damaged("damaged.opts", std::string("-top_height 4\n-top_radius 9") + control + "5\n");
-    EXPECT_TRUE(contains(refusal([&] { check_options_file(damaged.path); }), damaged.path + ": line 2"));
-  }
-  const TemporaryFile empty_name("name.opts", "-options_file\n");
-  EXPECT_TRUE(contains(refusal([&] { check_options_file(empty_name.path); }), "value missing"));
-}
-
-TEST(OptionsFile, refuses_missing_files_directories_and_circles)
-{
-  EXPECT_TRUE(contains(refusal([] { check_options_file("no/such.opts"); }), "-options_file = no/such.opts"));
-  EXPECT_TRUE(contains(refusal([] { check_options_file("/"); }), "directory"));
-  TemporaryFile circle("circle.opts", "");
-  std::ofstream(circle.path) << "-options_file " << circle.path << "\n";
-  EXPECT_TRUE(contains(refusal([&] { check_options_file(circle.path); }), "circle"));
 }

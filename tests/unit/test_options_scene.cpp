@@ -325,6 +325,36 @@ TEST(OptionsScene, refuses_inconsistent_schedules)
   expect_refused("-schedule_twists", "0,0,0,0,1", {{"-schedule_rates", "0,0,0,0,1"}});
 }
 
+TEST(OptionsScene, one_number_holds_for_all_phases)
+{
+  const SceneInput input = scene_from_options(
+      {{"-schedule_end_times", "1,2,4"}, {"-schedule_approach", "0.108"}, {"-schedule_rates", "-0.5"}});
+  ASSERT_EQ(input.scene.schedule.size(), 3u);
+  for (const Phase &phase : input.scene.schedule) {
+    EXPECT_EQ(phase.end_approach, 0.108);
+    EXPECT_EQ(phase.rate, -0.5);
+  }
+  EXPECT_EQ(resolved(input, "schedule_approach"), "0.108,0.108,0.108");
+  EXPECT_EQ(resolved(input, "schedule_rates"), "-0.5,-0.5,-0.5");
+  const Schedule held =
+      scene_from_options({{"-schedule_end_times", "2,3"}, {"-schedule_twists", "0.6"}}).scene.schedule;
+  EXPECT_DOUBLE_EQ(held[0].rate, 0.3); // reached at the first phase's end
+  EXPECT_EQ(held[1].rate, 0);
+  const std::string wrong = refusal({{"-schedule_approach", "0.1,0.2"}});
+  EXPECT_TRUE(contains(wrong, "has 2") && contains(wrong, "or one number for all phases")) << wrong;
+}
+
+TEST(OptionsScene, refusals_show_the_way_out)
+{
+  const std::string wider = refusal({{"-top_radius", "13"}});
+  EXPECT_TRUE(contains(wider, "exchange the two")) << wider;
+  const std::string minus = refusal({{"-schedule_rates", "0,0,0,0,\xE2\x88\x92"
+                                                         "1"}});
+  EXPECT_TRUE(contains(minus, "it holds a minus sign (U+2212)")) << minus;
+  const std::string curly = refusal({{"-model", "\xE2\x80\x9Csolid\xE2\x80\x9D"}});
+  EXPECT_TRUE(contains(curly, "it holds a typographic quotation mark (U+201C)")) << curly;
+}
+
 TEST(OptionsScene, refuses_absurd_meshes_with_their_number_of_elements)
 {
   expect_refused("-elements_radial", "330000");
@@ -403,4 +433,28 @@ TEST(OptionsScene, report_says_what_is_solved)
   for (const char *part : {"radius 10 mm", "G 1.387 MPa", "4.235 s", "mu = 0 + 0.0008 v", "143.2", "159 turns",
                            "10 mm/s", "warning: -top_bulk_modulus"})
     EXPECT_TRUE(contains(text, part)) << part << "\n" << text;
+}
+
+/// Each option that changes the numbers is in what the run says of itself.
+TEST(OptionsScene, report_shows_what_is_not_as_usual)
+{
+  const auto shows = [](const GivenOptions &given, const std::string &part) {
+    const std::string text = scene_report(scene_from_options(given));
+    EXPECT_TRUE(contains(text, part)) << part << "\n" << text;
+    EXPECT_FALSE(contains(scene_report(scene_from_options({})), part)) << part;
+  };
+  shows({{"-model", "solid"}, {"-top_tilt", "0.013"}}, "inclined by 0.013 rad");
+  shows({{"-model", "solid"}, {"-top_offset", "1.5,-0.25"}}, "x = 1.5 mm, y = -0.25 mm");
+  shows({{"-plate_contact", "false"}}, "do not feel the plates");
+  shows({{"-friction_speed_range", "0.01,7.5"}}, "found for 0.01 to 7.5 mm/s");
+  shows({{"-friction_pressure_exponent", "0.7"}, {"-friction_pressure_floor", "3e-4"}},
+        "mu p^0.7 (p in MPa, above 0.0003)");
+  shows({{"-bottom_elements_radial", "7"}}, "bottom gel: 7");
+  shows({{"-model", "solid"}, {"-contact_integration", "elements"}}, "Gauss points");
+  shows({{"-maxwell_integrator", "exponential_euler"}}, "time rule exponential_euler");
+  shows({{"-time_tolerance", "0.37"}}, "0.37 %");
+  shows({{"-schedule_kind", "steady"}}, "steady states only");
+  shows({{"-phase_end_tolerance", "0.02"}}, "less than 0.02 %");
+  shows({{"-wall_time", "86000"}}, "stops after 8.6e+04 s");
+  shows({{"-restart", "runs/a"}}, "continues the run in runs/a");
 }

@@ -1,6 +1,8 @@
 /// What a run says by itself: failures in words and by kind, and whether the friction law is asked what it can answer.
 #include "probe.hpp"
 
+#include <algorithm>
+
 namespace tribogel::test
 {
 
@@ -76,11 +78,32 @@ TEST(notices, ANegativeCoefficientEndsTheRunAndSaysWhere)
 {
   Problem problem;
   Recorder recorder("");
-  const Outcome outcome = outcome_of(turned_at(0.2, {1e-3, -1e-3}), problem, recorder); // mu < 0 beyond 1 mm/s
+  Scene scene = turned_at(0.2, {1e-3, -1e-3}); // mu < 0 beyond 1 mm/s
+  scene.friction_speeds = {{0.01, 0.5}};       // gives a notice at the same step
+  const Outcome outcome = outcome_of(scene, problem, recorder);
   EXPECT_FALSE(outcome.completed);
   EXPECT_TRUE(contains(outcome.why, "the friction coefficient is -0.0")) << outcome.why;
   EXPECT_TRUE(contains(outcome.why, "mm, where the gels slide at ")) << outcome.why;
   EXPECT_EQ(recorder.rows.back().phase, 2);
+  const auto at_speed = std::find_if(recorder.notices.begin(), recorder.notices.end(), [](const std::string &notice) {
+    return contains(notice, "-friction_speed_range");
+  });
+  ASSERT_NE(at_speed, recorder.notices.end());
+  EXPECT_TRUE(at_speed->starts_with("t = ") && !contains(*at_speed, "coefficient")) << *at_speed;
+  EXPECT_FALSE(contains(outcome.why, "-friction_speed_range")) << outcome.why;
+}
+
+/// What options end the run is said by their names.
+TEST(notices, AnOptionThatEndsTheRunIsNamed)
+{
+  for (const auto &[name, value] : OptionList{{"-ts_max_snes_failures", "2"}, {"-ts_max_reject", "0"}}) {
+    const SolverOptions options(OptionList{{"-snes_max_it", "0"}, {name, value}});
+    Problem problem;
+    Recorder recorder("");
+    const Outcome outcome = outcome_of(turned_at(0.1, {0, 1e-3}), problem, recorder);
+    EXPECT_TRUE(outcome.why.starts_with(name + " reached at t = 0 s")) << outcome.why;
+    EXPECT_FALSE(contains(outcome.why, "however small")) << outcome.why;
+  }
 }
 
 TEST(notices, FrictionThatFallsFasterThanTheGelsHoldIsToldOnce)
