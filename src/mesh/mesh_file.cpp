@@ -113,7 +113,9 @@ std::string read_file(const std::string &path, const Scene &scene, SerialMesh &m
   std::error_code ignored;
   const std::string file = "-mesh_file = " + path + ": ";
   if (!std::filesystem::exists(path, ignored))
-    return file + "does not exist; allowed: a Gmsh file, its path relative to the working directory";
+    return file + "does not exist; allowed: " +
+           (scene.output.restart ? "with -restart, -mesh_file with the path that the mesh of that run has now"
+                                 : "a Gmsh file, its path relative to the working directory");
   if (!std::filesystem::is_regular_file(path, ignored)) return file + "is no regular file; allowed: a Gmsh file";
   std::ifstream stream(path);
   if (!stream) return file + "cannot be read; allowed: a Gmsh file";
