@@ -1,4 +1,5 @@
 /// tribogel: two gels in a rheometer. Options in; force, torque and friction out; see -help.
+#include "mesh/digest.hpp"
 #include "mesh/mesh_file.hpp"
 #include "observe/checkpoint.hpp"
 #include "observe/progress.hpp"
@@ -89,7 +90,13 @@ PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
   if (help == HelpRequest::none) PetscCall(CheckOutputDirectory(comm, input.scene.output));
   PetscCall(MakeMesh(comm, input, mesh));
   const SerialMesh from_file = input.mesh_file.empty() ? SerialMesh{} : mesh; // for companions
-  if (continues) expect_unchanged(input, stored.options);
+  const std::string digest = digest_of(mesh, !input.mesh_file.empty());
+  if (continues) {
+    expect_unchanged(input, stored.options);
+    PetscCall(
+        ExpectSameMesh(comm, stored, digest,
+                       input.mesh_file.empty() ? "-restart = " + old_directory : "-mesh_file = " + input.mesh_file));
+  }
   PetscCall(problem.SetUp(comm, input.scene, std::move(mesh)));
   PetscCall(problem.ProbeSolver());
   PetscCall(TakePetscHelp(petsc_help));
@@ -100,7 +107,7 @@ PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
   PetscCall(CheckUnusedOptions(sources, petsc_help, input.warnings));
   const std::string &directory = input.scene.output.directory;
   Recorder recorder(directory);
-  Checkpoint checkpoint(recorder, input.scene.output, text_of_options(input), start);
+  Checkpoint checkpoint(recorder, input.scene.output, text_of_options(input), digest, start);
   if (continues) PetscCall(checkpoint.Restore(stored, problem));
   PetscCall(PrepareOutputDirectory(comm, input.scene.output));
   catch_stop_signals();

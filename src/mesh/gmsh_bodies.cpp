@@ -1,6 +1,6 @@
 #include "mesh/gmsh_bodies.hpp"
 
-#include "mesh/gmsh_file.hpp"
+#include "mesh/gmsh_groups.hpp"
 #include "scene/parse.hpp"
 #include "scene/user_error.hpp"
 
@@ -72,7 +72,7 @@ private:
     const auto expect = [&](int dim, const char *name) {
       for (const GmshElement &element : file.elements)
         if (element.dim == dim && stands_in(element, name)) return;
-      throw UserError{std::string("no physical ") + (dim == 3 ? "volume" : "surface") + " '" + name + "'; allowed: " +
+      throw UserError{no_such_group(file, dim, name) + "; allowed: " +
                       (has_top ? "volumes top and bottom, surfaces top_plate, bottom_plate, top_contact and "
                                  "bottom_contact"
                                : "with -specimens bottom volume bottom, surfaces top_plate and bottom_plate")};

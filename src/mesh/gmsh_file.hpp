@@ -9,6 +9,7 @@
 #include <istream>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tribogel
@@ -22,11 +23,19 @@ struct GmshElement {
   std::vector<std::string> groups; ///< names of its physical groups; empty if it has none with a name
 };
 
-struct GmshFile {
-  std::map<long, std::array<double, 3>> nodes; ///< positions by tag
-  std::vector<GmshElement> elements;           ///< without points and lines
+/// A physical group that the file names or that its elements are in.
+struct GmshGroup {
+  std::string name; ///< empty: it has a number only
+  long elements = 0;
 };
 
+struct GmshFile {
+  std::map<long, std::array<double, 3>> nodes;      ///< positions by tag
+  std::vector<GmshElement> elements;                ///< without points and lines
+  std::map<std::pair<int, long>, GmshGroup> groups; ///< by dimension (2 or 3) and number
+};
+
+/// Sections may stand in any order behind the first, save that the entities of format 4.1 come before their elements.
 /// Throws UserError that says where and what is wrong and what is allowed, without the file's name.
 GmshFile read_gmsh(std::istream &stream);
 

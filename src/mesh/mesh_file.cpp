@@ -1,11 +1,10 @@
 #include "mesh/mesh_file.hpp"
 
 #include "mesh/cylinder.hpp"
+#include "mesh/face.hpp"
 #include "mesh/gmsh_bodies.hpp"
 #include "scene/first_process.hpp"
 #include "scene/parse.hpp"
-#include "tribogel/element/quadrature.hpp"
-#include "tribogel/element/shape.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,24 +38,6 @@ std::array<Place, 9> nodes_of(const SerialMesh &mesh, const std::array<int, 4> &
   return {at({a}), at({a, b}), at({b}), at({a, d}), at({a, b, c, d}), at({b, c}), at({d}), at({c, d}), at({c})};
 }
 
-double area_of(const std::array<Place, 9> &X)
-{
-  static const auto gauss = gauss_rule<4>();
-  double area = 0;
-  for (int q = 0; q < 16; ++q) {
-    const auto shape = tensor_shape<2, 2>({gauss.point[q % 4], gauss.point[q / 4]});
-    double slope[2][3] = {};
-    for (int a = 0; a < 9; ++a)
-      for (int j = 0; j < 2; ++j)
-        for (int i = 0; i < 3; ++i) slope[j][i] += shape.dN[a][j] * X[a][i];
-    const double n[3] = {slope[0][1] * slope[1][2] - slope[0][2] * slope[1][1],
-                         slope[0][2] * slope[1][0] - slope[0][0] * slope[1][2],
-                         slope[0][0] * slope[1][1] - slope[0][1] * slope[1][0]};
-    area += gauss.weight[q % 4] * gauss.weight[q / 4] * std::hypot(n[0], n[1], n[2]);
-  }
-  return area;
-}
-
 struct Extent {
   double low = std::numeric_limits<double>::infinity(), high = -low, area = 0;
 };
@@ -69,7 +50,9 @@ SpecimenSizes measure(const SerialMesh &mesh, bool has_top)
   for (const SerialMesh::Facet &facet : mesh.boundary) {
     Extent &side = extent[static_cast<int>(facet.side)];
     const auto nodes = nodes_of(mesh, facet.vertex);
-    side.area += area_of(nodes);
+    std::vector<FaceSample> samples;
+    add_samples(nodes, samples);
+    for (const FaceSample &sample : samples) side.area += sample.area;
     for (const Place &X : nodes) {
       side.low = std::min(side.low, X[2]);
       side.high = std::max(side.high, X[2]);
@@ -113,7 +96,9 @@ std::string read_file(const std::string &path, const Scene &scene, SerialMesh &m
   std::error_code ignored;
   const std::string file = "-mesh_file = " + path + ": ";
   if (!std::filesystem::exists(path, ignored))
-    return file + "does not exist; allowed: a Gmsh file, its path relative to the working directory";
+    return file + "does not exist; allowed: " +
+           (scene.output.restart ? "with -restart, -mesh_file with the path that the mesh of that run has now"
+                                 : "a Gmsh file, its path relative to the working directory");
   if (!std::filesystem::is_regular_file(path, ignored)) return file + "is no regular file; allowed: a Gmsh file";
   std::ifstream stream(path);
   if (!stream) return file + "cannot be read; allowed: a Gmsh file";

@@ -19,6 +19,8 @@ namespace
 
 const std::string kind = std::string("checkpoint of tribogel ") + version;
 
+constexpr const char *mesh_name = "mesh"; ///< of its digest in the file
+
 std::string path_in(const std::string &directory)
 {
   return directory + "/checkpoint.h5";
@@ -64,8 +66,23 @@ PetscErrorCode ReadStoredRun(MPI_Comm comm, const std::string &directory, Stored
   PetscFunctionReturn(0);
 }
 
-Checkpoint::Checkpoint(Recorder &record, OutputParameters where, std::string all_options, double start)
-    : recorder(record), output(std::move(where)), options(std::move(all_options)), wall_start(start)
+PetscErrorCode ExpectSameMesh(MPI_Comm comm, const StoredRun &stored, const std::string &digest,
+                              const std::string &option)
+{
+  PetscFunctionBeginUser;
+  PetscCall(OnFirstProcess(comm, [&]() -> std::string {
+    const auto before = stored.data.texts.find(mesh_name);
+    if (before != stored.data.texts.end() && before->second == digest) return {};
+    return option + ": the mesh is not that of the run in " + stored.directory +
+           " (other nodes, cells or groups, or in another order); allowed: to continue it, the same mesh";
+  }));
+  PetscFunctionReturn(0);
+}
+
+Checkpoint::Checkpoint(Recorder &record, OutputParameters where, std::string all_options, std::string of_mesh,
+                       double start)
+    : recorder(record), output(std::move(where)), options(std::move(all_options)), mesh(std::move(of_mesh)),
+      wall_start(start)
 {
 }
 
@@ -162,6 +179,7 @@ PetscErrorCode Checkpoint::Write(Problem &problem)
     data.numbers["phases"] = numbers_of(recorder.phases);
     data.numbers["bytes"].assign(recorder.bytes.begin(), recorder.bytes.end());
     data.texts["options"] = options;
+    data.texts[mesh_name] = mesh;
     std::string &notices = data.texts["notices"];
     for (const std::string &line : recorder.notices) notices += line + "\n";
     return write_data_file(path_in(output.directory), kind, data);

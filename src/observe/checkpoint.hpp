@@ -21,11 +21,16 @@ struct StoredRun {
 /// Reads the checkpoint of the run in `directory`. Throws UserError if there is none. Collective.
 PetscErrorCode ReadStoredRun(MPI_Comm comm, const std::string &directory, StoredRun &stored);
 
+/// Throws UserError, which begins with `option`, if the mesh, by its digest on the first process, is not that of the
+/// stored run. Collective.
+PetscErrorCode ExpectSameMesh(MPI_Comm comm, const StoredRun &stored, const std::string &digest,
+                              const std::string &option);
+
 class Checkpoint : public Observer
 {
 public:
-  /// `options` as text_of_options gives them, `wall_start` as MPI_Wtime.
-  Checkpoint(Recorder &recorder, OutputParameters output, std::string options, double wall_start);
+  /// `options` as text_of_options gives them, the mesh by its digest on the first process, `wall_start` as MPI_Wtime.
+  Checkpoint(Recorder &recorder, OutputParameters output, std::string options, std::string mesh, double wall_start);
 
   /// Problem, recorder and costs as they were. Throws UserError if the checkpoint does not fit. Collective.
   PetscErrorCode Restore(const StoredRun &stored, Problem &problem);
@@ -42,7 +47,7 @@ private:
 
   Recorder &recorder;
   OutputParameters output;
-  std::string options;
+  std::string options, mesh;
   double wall_start, last_step = 0, last_written = 0, longest_step = 0; ///< [s]
   bool restored = false;
   RunCost earlier;

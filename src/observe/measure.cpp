@@ -70,11 +70,11 @@ void average(const Problem &problem, const std::vector<SurfaceResults> &surfaces
     }
   if (count == 0) return;
   const Scene &scene = problem.scene;
-  const double N = m.normal_force, R = scene.top.radius;
+  const double N = m.normal_force;
   m.contact_radius = radius;
   if (!(N > 0)) return;
-  m.mu_apparent = apparent_coefficient(scene.friction, m.torque, N, R, problem.phase().rate);
-  m.mu_gong = gong_coefficient(m.torque, N, R);
+  m.mu_apparent = apparent_coefficient(scene.friction, m.torque, N, problem.face, problem.phase().rate);
+  m.mu_gong = gong_coefficient(m.torque, N, problem.face);
   m.mu_mean = sum / count;
   m.mu_area_weighted = area_sum / area;
   m.mu_pressure_weighted = friction / force;

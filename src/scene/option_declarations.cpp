@@ -74,7 +74,8 @@ OptionGroup geometry_group()
                    " bottom_contact (with -specimens bottom: bottom, top_plate and bottom_plate); mm, z = 0 is the"
                    " bottom specimen's contact face, x = y = 0 the axis",
         .source = "own",
-        .rule = "ASCII, format 2.2 or 4.1, from the working directory; -model solid, -schedule_kind transient"},
+        .rule = "ASCII, format 2.2 or 4.1, from the working directory; -model solid, -schedule_kind transient",
+        .may_change = true}, // to another path of the same mesh
        {.name = "-plate_contact",
         .kind = OptionKind::flag,
         .fallback = "true",

@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
+
 namespace tribogel
 {
 
@@ -76,6 +78,7 @@ std::string text_of_options(const SceneInput &input)
   Json given = Json::object(), resolved = Json::object(), solver = Json::object();
   for (const auto &[name, text] : input.given)
     if (name != "-output_directory" && name != "-overwrite" && name != "-restart") given[name] = text;
+  if (!input.mesh_file.empty()) given["-mesh_file"] = std::filesystem::absolute(input.mesh_file).string();
   for (const auto &[name, text] : input.options) resolved["-" + name] = text;
   const auto all = resolved_options(input);
   for (std::size_t k = input.options.size(); k < all.size(); ++k)
@@ -93,10 +96,14 @@ PetscErrorCode AdoptOptions(const std::string &stored)
 
 void expect_unchanged(const SceneInput &input, const std::string &stored)
 {
-  const Json json = parsed(stored), resolved = json.value("resolved", Json::object());
+  const Json json = parsed(stored), resolved = json.value("resolved", Json::object()),
+             given = json.value("given", Json::object());
   for (const auto &[plain, text] : input.options) {
     const std::string name = "-" + plain, *before = find(resolved, name);
     if (may_change(name) || (before && same_value(text, *before))) continue;
+    const auto now = input.given.find(name);
+    const std::string *then = find(given, name);
+    if (now == input.given.end() || (then && *then == now->second)) continue; // follows from what was given
     throw UserError{name + " = " + text + ": the run in " + input.scene.output.directory + " has " +
                     (before ? *before : "none") + "; allowed: to continue it, " +
                     (before ? "the same or nothing" : "nothing")};

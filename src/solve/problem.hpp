@@ -5,6 +5,7 @@
 #include "bulk/bulk.hpp"
 #include "contact/contact.hpp"
 #include "mesh/cylinder.hpp"
+#include "mesh/face.hpp"
 #include "mesh/mesh.hpp"
 #include "solve/contact_pc.hpp"
 #include "solve/direct_solver.hpp"
@@ -114,6 +115,7 @@ public:
   Mesh mesh;
   std::unique_ptr<Bulk> bulk;
   std::unique_ptr<Contact> contact; ///< null where nothing can touch
+  ContactFace face{0};              ///< of the top gel, undeformed
   State state;
   Stage stage;
   SolveCounts counts;

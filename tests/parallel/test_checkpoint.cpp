@@ -69,7 +69,7 @@ struct StoppedRun {
   Checkpoint checkpoint;
 
   StoppedRun(MPI_Comm comm, const Scene &scene, const std::string &directory)
-      : recorder(directory), checkpoint(recorder, output(directory), "{}", MPI_Wtime())
+      : recorder(directory), checkpoint(recorder, output(directory), "{}", "mesh", MPI_Wtime())
   {
     Stop stop;
     bool completed = true;
@@ -99,7 +99,7 @@ struct ContinuedRun {
 
   /// Each run has files of its own: a copy of the stopped one's.
   ContinuedRun(MPI_Comm comm, const Scene &scene, const std::string &stopped, const std::string &directory)
-      : recorder(directory), checkpoint(recorder, StoppedRun::output(directory), "{}", MPI_Wtime())
+      : recorder(directory), checkpoint(recorder, StoppedRun::output(directory), "{}", "mesh", MPI_Wtime())
   {
     int rank;
     MPI_Comm_rank(comm, &rank);
@@ -236,7 +236,7 @@ TEST(checkpoint_scene, MustFit)
   StoredRun stored;
   Problem problem;
   Recorder recorder(directory.path / "stopped");
-  Checkpoint checkpoint(recorder, StoppedRun::output(directory.path / "stopped"), "{}", MPI_Wtime());
+  Checkpoint checkpoint(recorder, StoppedRun::output(directory.path / "stopped"), "{}", "mesh", MPI_Wtime());
   ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, other), 0);
   ASSERT_EQ(ReadStoredRun(PETSC_COMM_WORLD, directory.path / "stopped", stored), 0);
   EXPECT_THROW(checkpoint.Restore(stored, problem), UserError);

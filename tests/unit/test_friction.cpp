@@ -1,4 +1,5 @@
 /// Friction laws and the rheometer's closed forms.
+#include "tribogel/element/quadrature.hpp"
 #include "tribogel/friction/law.hpp"
 #include "tribogel/friction/polynomial.hpp"
 #include "tribogel/friction/rheometer.hpp"
@@ -324,6 +325,58 @@ TEST(Rheometer, PaperTable2TorquesGiveBackTheirMeanCoefficients)
       }
       EXPECT_NEAR(apparent_coefficient(cases[law], torque[law][phase] * N * 10, N, 10, rate) / area_mean, 1, 4e-4);
     }
+}
+
+/// A ring from A to R as parts: Gauss points along the radius, exact for whole powers.
+ContactFace ring(double A, double R)
+{
+  const auto gauss = gauss_rule<6>();
+  std::vector<ContactFace::Part> parts;
+  for (int q = 0; q < 6; ++q) {
+    const double r = (A + R) / 2 + (R - A) / 2 * gauss.point[q];
+    parts.push_back({r, 2 * std::numbers::pi * r * (R - A) / 2 * gauss.weight[q]});
+  }
+  return ContactFace(parts);
+}
+
+/// Integral of r^(power + 1) dr from A to R over that of r dr.
+double ring_mean(double A, double R, double power)
+{
+  return 2 * (std::pow(R, power + 2) - std::pow(A, power + 2)) / ((power + 2) * (R * R - A * A));
+}
+
+TEST(Rheometer, MeansOfPowersOverAFace)
+{
+  const double R = 9.3, A = 5.1;
+  EXPECT_EQ(ContactFace(R).mean_power(0), 1);
+  EXPECT_NEAR(ContactFace(R).mean_power(1), 2 * R / 3, 1e-14);
+  EXPECT_NEAR(ContactFace(R).mean_power(2), R * R / 2, 1e-13);
+  for (const double power : {0.0, 1.0, 2.0, 3.0, 5.0}) {
+    EXPECT_NEAR(ring(A, R).mean_power(power) / ring_mean(A, R, power), 1, 1e-14);
+    EXPECT_NEAR(ring(0, R).mean_power(power) / ContactFace(R).mean_power(power), 1, 1e-14);
+  }
+}
+
+/// Under uniform pressure the torque of a ring is T/N = sum b_m omega^m <r^(m + 1)> (C12), and the coefficient that it
+/// gives is the area mean of mu: of a constant one that constant, where the disc's formula would say 0.153 for 0.1.
+TEST(Rheometer, CoefficientsOfARing)
+{
+  const double A = 6, R = 10, N = 4.7, omega = 0.21;
+  const PolynomialFriction<double> law{{0.31, 0.047, 0.0021}, {0, 1, 2}};
+  double torque = 0, area_mean = 0;
+  for (int m = 0; m < 3; ++m) {
+    torque += N * law.coefficients[m] * std::pow(omega, m) * ring_mean(A, R, m + 1);
+    area_mean += law.coefficients[m] * std::pow(omega, m) * ring_mean(A, R, m);
+  }
+  EXPECT_NEAR(apparent_coefficient(law, torque, N, ring(A, R), omega), area_mean, 1e-15);
+  const double constant = 0.1 * N * ring_mean(A, R, 1);
+  EXPECT_NEAR(apparent_coefficient({{0.1}, {0}}, constant, N, ring(A, R), omega), 0.1, 1e-16);
+  EXPECT_NEAR(apparent_coefficient({{0.1}, {0}}, constant, N, std::sqrt(R * R - A * A), omega), 0.153, 5e-4);
+  // tractions c omega r: their sum and torque by (2.1) and (2.2) of the two discs
+  const double c = 0.037, force = viscous_friction_force(c, omega, R) - viscous_friction_force(c, omega, A);
+  const double moment = viscous_torque(c, omega, R) - viscous_torque(c, omega, A);
+  EXPECT_NEAR(gong_friction_force(moment, ring(A, R)) / force, 1, 1e-14);
+  EXPECT_NEAR(gong_coefficient(moment, N, ring(A, R)) / (force / N), 1, 1e-14);
 }
 
 TEST(Rheometer, UndefinedValuesAreNaN)

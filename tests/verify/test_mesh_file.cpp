@@ -1,10 +1,7 @@
 /// Meshes from Gmsh files: the O-grids written and read again give the forces of the built-in mesh, in both formats,
 /// with straight and curved cells; what a file must not be is refused in words.
-#include "gmsh_writer.hpp"
-#include "solids.hpp"
+#include "gmsh_texts.hpp"
 #include "solver_options.hpp"
-
-#include "scene/user_error.hpp"
 
 namespace tribogel::test
 {
@@ -23,12 +20,6 @@ Scene turned_gels(int order, int elements)
   return scene;
 }
 
-SerialMesh read(const std::string &text, int order, bool has_top = true)
-{
-  std::istringstream stream(text);
-  return mesh_of_gmsh(stream, has_top, order);
-}
-
 Measurement measured(const Scene &scene, const SerialMesh &serial)
 {
   Problem problem;
@@ -39,33 +30,6 @@ Measurement measured(const Scene &scene, const SerialMesh &serial)
   EXPECT_EQ(problem.Run({&recorder}, completed, why), 0);
   EXPECT_TRUE(completed) << why;
   return recorder.rows.back().measurement;
-}
-
-/// What reading the text is refused with.
-std::string refusal(const std::string &text, int order = 1, bool has_top = true)
-{
-  try {
-    read(text, order, has_top);
-  } catch (const UserError &error) {
-    return error.text;
-  }
-  return "taken";
-}
-
-std::string replaced(std::string text, const std::string &from, const std::string &to)
-{
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
-/// Two cubes, one on the other.
-SerialMesh cubes()
-{
-  const std::optional<Side> free;
-  return stacked(
-      {{even(0, 1, 1), even(0, 1, 1), even(-1, 0, 1)}, {free, free, free, free, Side::bottom_plate, Side::master}},
-      {{even(0, 1, 1), even(0, 1, 1), even(0, 1, 1)}, {free, free, free, free, Side::slave, Side::top_plate}});
 }
 
 } // namespace
@@ -169,11 +133,7 @@ TEST(mesh_file, SaysWhatIsWrong)
   const SerialMesh mesh = cubes();
   const GmshWriter writer(mesh, true, 8);
   const std::string good = writer.format_2(), four = writer.format_4();
-  const auto expect = [](const std::string &said, const std::string &part) {
-    EXPECT_NE(said.find(part), std::string::npos) << said;
-    EXPECT_NE(said.find("; allowed: "), std::string::npos) << said;
-    EXPECT_EQ(said.find('\n'), std::string::npos) << said;
-  };
+  const auto &expect = expect_refusal;
   EXPECT_EQ(refusal(good), "taken");
   EXPECT_EQ(refusal(four), "taken");
   for (const char *name : {"top_plate", "bottom_plate", "top_contact", "bottom_contact"})

@@ -277,6 +277,63 @@ class Refused(Folder):
         self.assertIn('"snes_rtol": "1e-9"', (self.folder / "run" / "summary.json").read_text())
 
 
+class MeshFile(Folder):
+    """The mesh of the file goes with the run, under whatever path."""
+    BRIEF = ["-model", "solid", "-element_order", "1", "-plate_contact", "false", "-top_material", "hyperelastic",
+             "-bottom_material", "hyperelastic", "-friction_coefficients", "0.1", "-friction_exponents", "0",
+             "-schedule_end_times", "1", "-schedule_approach", "0.1", "-schedule_rates", "0", "-ts_adapt_type", "none",
+             "-ts_dt", "0.5"]
+
+    def setUp(self):
+        super().setUp()
+        made = subprocess.run([REPOSITORY / "tools" / "specimen-mesh", "square", "--elements", "1", "--bottom-radius", "14"],
+                              capture_output=True, text=True, check=True)
+        self.first = made.stdout
+        for name in ("start", "elsewhere"):
+            (self.folder / name).mkdir()
+        (self.folder / "start" / "mesh.msh").write_text(self.first)
+        run(1, self.BRIEF + ["-mesh_file", "mesh.msh", "-output_directory", "../run", "-wall_time", "1e-6"],
+            self.folder / "start", 4)
+
+    def moved(self, node, z):
+        """The mesh with a node at another height."""
+        head, tail = self.first.split("$Nodes\n")
+        old = next(line for line in tail.splitlines() if line.startswith(f"{node} "))
+        return head + "$Nodes\n" + tail.replace(old, " ".join(old.split()[:3] + [z]), 1)
+
+    def reversed(self):
+        """The mesh with its elements in the opposite order."""
+        head, tail = self.first.split("$Elements\n")
+        count, *elements, end = tail.splitlines()
+        return "\n".join([head + "$Elements", count] + elements[::-1] + [end]) + "\n"
+
+    def refuses(self, ranks, words, *parts):
+        before = contents(self.folder / "run")
+        done = run(ranks, words, self.folder, 2)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertTrue(done.stderr.startswith("tribogel: error: -mesh_file = "), done.stderr)
+        for part in parts + ("allowed: ",):
+            self.assertIn(part, done.stderr)
+        self.assertEqual(contents(self.folder / "run"), before)
+
+    def test_another_mesh_is_refused(self):
+        path = self.folder / "start" / "mesh.msh"
+        for ranks, text in ((1, self.moved(14, "-1.9")), (2, self.reversed()), (1, self.moved(19, "-0.5"))):
+            path.write_text(text)
+            self.refuses(ranks, ["-restart", "run"], "mesh.msh: the mesh is not that of the run in run", "the same mesh")
+        path.unlink()
+        self.refuses(1, ["-restart", "run"], "mesh.msh: does not exist", "-mesh_file with the path")
+        self.refuses(1, ["-restart", "run", "-mesh_file", "mesh.msh"], "-mesh_file = mesh.msh: does not exist")
+
+    def test_the_same_mesh_is_taken(self):
+        run(2, ["-restart", "../run", "-wall_time", "1e3"], self.folder / "elsewhere")
+        shutil.rmtree(self.folder / "run")
+        run(1, self.BRIEF + ["-mesh_file", "start/mesh.msh", "-output_directory", "run", "-wall_time", "1e-6"],
+            self.folder, 4)
+        (self.folder / "start" / "mesh.msh").rename(self.folder / "elsewhere" / "gel.msh")
+        run(1, ["-restart", "../run", "-mesh_file", "gel.msh", "-wall_time", "1e3"], self.folder / "elsewhere")
+
+
 def main():
     global ARGUMENTS
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)

@@ -1,7 +1,11 @@
-/// What rheologists read from a torque: closed forms that assume a planar contact of radius R, the sliding speed
-/// omega r, and uniform pressure. Section 2 of the paper assumes more, a traction proportional to the speed;
-/// section 3.3 a polynomial law. They are undefined, and then NaN, without normal force. A coefficient is |traction| /
-/// pressure, so the torque's sign is ignored. Units mm, N, rad, s; torque N mm.
+/// What rheologists read from a torque: closed forms that assume a planar contact, the sliding speed omega r, and
+/// uniform pressure. Section 2 of the paper assumes more, a traction proportional to the speed; section 3.3 a polynomial
+/// law. They are undefined, and then NaN, without normal force. A coefficient is |traction| / pressure, so the torque's
+/// sign is ignored. Units mm, N, rad, s; torque N mm.
+///
+/// The paper's contact is a disc of radius R. Under the same assumptions tractions on a face of any shape stand across
+/// the radius, so that its integrals over the disc become means of powers of r over the face: with <f> the area mean,
+/// N = p A, T = A p <r mu(omega r)>, and the coefficient is <mu(omega r)>.
 #pragma once
 
 #include "tribogel/friction/polynomial.hpp"
@@ -9,9 +13,40 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace tribogel
 {
+
+/// The undeformed contact face of the gel that turns.
+class ContactFace
+{
+public:
+  /// A part of it: distance from the axis about which the face turns [mm], and area [mm^2].
+  struct Part {
+    double radius, area;
+  };
+
+  ContactFace(double radius) : R(radius) {} ///< a disc about the axis, in closed form
+  explicit ContactFace(std::vector<Part> all) : parts(std::move(all)) {}
+
+  /// Area mean of r^power [mm^power], power >= 0; that of a disc is 2 R^power / (power + 2).
+  double mean_power(double power) const
+  {
+    if (parts.empty()) return 2 * std::pow(R, power) / (power + 2);
+    double area = 0, sum = 0;
+    for (const Part &part : parts) {
+      area += part.area;
+      sum += part.area * std::pow(part.radius, power);
+    }
+    return sum / area;
+  }
+
+private:
+  double R = 0;
+  std::vector<Part> parts; ///< empty: a disc
+};
 
 /// Sum of the tractions c omega r over the disc, whatever their direction, eq. (2.1) [N]; c is the traction over the
 /// sliding speed [MPa s/mm].
@@ -26,36 +61,37 @@ inline double viscous_torque(double c, double rate, double radius)
   return std::numbers::pi / 2 * c * std::abs(rate) * radius * radius * radius * radius;
 }
 
-/// The friction force that goes with a torque according to (2.1) and (2.2), 4 T / (3 R) [N].
-inline double gong_friction_force(double torque, double radius)
+/// The friction force that goes with a torque when tractions grow as r: the ratio of their sum, as (2.1), to their
+/// moment, as (2.2), over the face; 4 T / (3 R) on a disc [N].
+inline double gong_friction_force(double torque, const ContactFace &face)
 {
-  return 4 * std::abs(torque) / (3 * radius);
+  return std::abs(torque) * face.mean_power(1) / face.mean_power(2);
 }
 
 /// Apparent coefficient of Gong et al., eq. (2.3): the friction force over N.
-inline double gong_coefficient(double torque, double normal_force, double radius)
+inline double gong_coefficient(double torque, double normal_force, const ContactFace &face)
 {
-  if (!(normal_force > 0 && radius > 0)) return std::numeric_limits<double>::quiet_NaN();
-  return gong_friction_force(torque, radius) / normal_force;
+  if (!(normal_force > 0 && face.mean_power(1) > 0)) return std::numeric_limits<double>::quiet_NaN();
+  return gong_friction_force(torque, face) / normal_force;
 }
 
-/// Area mean of mu(omega r) over the disc; the numerator of (3.13) times 2 / R^2.
-template <class T> T mean_coefficient(const PolynomialFriction<T> &law, double radius, double rate)
+/// Area mean of mu(omega r) over the face; the numerator of (3.13) over the half of R^2 that is the disc's integral of
+/// r.
+template <class T> T mean_coefficient(const PolynomialFriction<T> &law, const ContactFace &face, double rate)
 {
-  const double rim_speed = std::abs(rate) * radius;
   T sum = 0;
   for (std::size_t i = 0; i < law.exponents.size(); ++i)
-    sum += law.coefficients[i] * (2 * std::pow(rim_speed, law.exponents[i]) / (law.exponents[i] + 2));
+    sum += law.coefficients[i] * (std::pow(std::abs(rate), law.exponents[i]) * face.mean_power(law.exponents[i]));
   return sum;
 }
 
-/// T / N of a law proportional to the pressure, for a uniform one [mm]; the denominator of (3.13) times 2 / R^2.
-template <class T> T torque_over_force(const PolynomialFriction<T> &law, double radius, double rate)
+/// T / N of a law proportional to the pressure, for a uniform one: the area mean of r mu(omega r) [mm]; the denominator
+/// of (3.13) over the same.
+template <class T> T torque_over_force(const PolynomialFriction<T> &law, const ContactFace &face, double rate)
 {
-  const double rim_speed = std::abs(rate) * radius;
   T sum = 0;
   for (std::size_t i = 0; i < law.exponents.size(); ++i)
-    sum += law.coefficients[i] * (2 * radius * std::pow(rim_speed, law.exponents[i]) / (law.exponents[i] + 3));
+    sum += law.coefficients[i] * (std::pow(std::abs(rate), law.exponents[i]) * face.mean_power(law.exponents[i] + 1));
   return sum;
 }
 
@@ -63,12 +99,12 @@ template <class T> T torque_over_force(const PolynomialFriction<T> &law, double 
 /// that the law gives, for a rotation at `rate` [rad/s]. (3.11) is its case of the exponents 0, 1, 2, corrected as
 /// src/PAPER.md says. NaN also where the law gives no torque, and where tau is not proportional to p.
 inline double apparent_coefficient(const PolynomialFriction<double> &law, double torque, double normal_force,
-                                   double radius, double rate)
+                                   const ContactFace &face, double rate)
 {
-  const double per_force = torque_over_force(law, radius, rate);
-  const bool defined = normal_force > 0 && radius > 0 && per_force != 0 && law.linear_in_pressure();
-  if (!defined) return std::numeric_limits<double>::quiet_NaN();
-  return mean_coefficient(law, radius, rate) / per_force * std::abs(torque) / normal_force;
+  if (!(normal_force > 0 && law.linear_in_pressure())) return std::numeric_limits<double>::quiet_NaN();
+  const double per_force = torque_over_force(law, face, rate);
+  if (!(std::abs(per_force) > 0)) return std::numeric_limits<double>::quiet_NaN();
+  return mean_coefficient(law, face, rate) / per_force * std::abs(torque) / normal_force;
 }
 
 } // namespace tribogel
