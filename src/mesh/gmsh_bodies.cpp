@@ -102,9 +102,14 @@ private:
     for (const long tag : element.nodes) given.push_back(file.nodes.at(tag));
     const auto node = all_nodes(given);
     if (const std::string fault = fault_of(node, given.size(), order); !fault.empty()) complain(element, fault);
-    SerialMesh::Cell cell{{}, in[1] ? top_body : bottom_body, std::atan2(node[26][1], node[26][0])};
+    SerialMesh::Cell cell{{}, in[1] ? top_body : bottom_body, 0};
     std::array<int, 8> corner;
-    for (int v = 0; v < 8; ++v) corner[v] = vertex(element, element.nodes[v], cell.body);
+    double middle[2] = {};
+    for (int v = 0; v < 8; ++v) {
+      corner[v] = vertex(element, element.nodes[v], cell.body);
+      for (int j = 0; j < 2; ++j) middle[j] += node[v][j];
+    }
+    cell.key = std::atan2(middle[1], middle[0]);
     for (int v = 0; v < 8; ++v) cell.vertex[v] = corner[gmsh_corner[v]];
     const bool left_handed = is_left_handed(node);
     if (left_handed)

@@ -62,7 +62,8 @@ template <int order, int quadrature> std::vector<Sample<order>> samples()
     }
     all.push_back(sample);
   };
-  for (const int s : slot) add({2. * (s % n) / order - 1, 2. * (s / n % n) / order - 1, 2. * (s / n / n) / order - 1});
+  const auto level = [](int k) { return 2. * k / order - 1; };
+  for (const int s : slot) add({level(s % n), level(s / n % n), level(s / (n * n))});
   for (int k = 0; k < m * m * m; ++k) add({gauss.point[k % m], gauss.point[k / m % m], gauss.point[k / m / m]});
   return all;
 }

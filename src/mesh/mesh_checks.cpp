@@ -23,9 +23,9 @@ using quad_search::Box;
 using quad_search::Corner;
 
 constexpr const char *how_to_join =
-    "; allowed: one node where cells of a body meet (in Gmsh: Coherence before meshing, or "
-    "gmsh.model.mesh.removeDuplicateNodes for the volumes of this body; Coherence Mesh joins the bodies to each other "
-    "too)";
+    "; allowed: one node where cells of a body meet (in Gmsh: BooleanFragments of the volumes of this body before "
+    "meshing, or gmsh.model.mesh.removeDuplicateNodes for them; Coherence Mesh would join top and "
+    "bottom where they touch, too)";
 
 Corner corner_at(const Place &X)
 {
@@ -145,7 +145,7 @@ void expect_joined(GmshBodies &bodies, const std::vector<Touch> &touches)
       throw UserError{"faces" + of_body + " lie on or in other cells of it that do not have these faces (" +
                       in_number(others.size()) + on_element(others.front()) +
                       "): meshes that do not match (hanging nodes) or that overlap; allowed: cells that have whole "
-                      "faces in common (in Gmsh: Coherence or BooleanFragments before meshing)"};
+                      "faces in common (in Gmsh: BooleanFragments of the volumes of this body before meshing)"};
     if (!matching.empty())
       throw UserError{"faces" + of_body + " lie on other faces of it with nodes of their own (" +
                       in_number(matching.size()) + on_element(matching.front()) +
@@ -154,7 +154,7 @@ void expect_joined(GmshBodies &bodies, const std::vector<Touch> &touches)
     if (!slits.empty())
       bodies.warnings.push_back("faces" + of_body + " lie within a tenth of their size of other cells of it (" +
                                 in_number(slits.size()) + on_element(slits.front()) +
-                                "): the sides of such a slit do not feel each other and may pass through");
+                                "): parts that are not joined, or a slit whose sides do not feel each other");
   }
 }
 

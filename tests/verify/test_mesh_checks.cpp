@@ -100,7 +100,7 @@ TEST(mesh_checks, SayWhichPartsAreNotJoined)
   SerialMesh rounded = halves; // as a file of seven digits has it
   for (std::size_t v = 0; v < rounded.vertex.size(); ++v) rounded.vertex[v][0] += v % 3 * 1e-6;
   expect_refused(judged(rounded), {"of bottom lie on other faces of it", "(24, e.g."});
-  expect_warned(judged(apart({slab(-3, 0, -2, 0), slab(0.01, 3, -2, 0), upper})), {"(24, e.g.", "such a slit"});
+  expect_warned(judged(apart({slab(-3, 0, -2, 0), slab(0.01, 3, -2, 0), upper})), {"(24, e.g.", "a slit whose sides"});
   expect_taken(judged(apart({slab(-3, 0, -2, 0), slab(0.5, 3, -2, 0), upper}))); // two gels on one plate
 }
 
