@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 namespace tribogel
@@ -44,7 +45,7 @@ public:
         std::copy_n(node.X.begin(), dim, data.X[a].begin());
         for (int i = 0; i < 3; ++i) data.dof[3 * a + i] = node.displacement + i;
       }
-      sound = known[remembering ? cells.size() : 0].cell.set(data.X) && sound;
+      if (!known[remembering ? cells.size() : 0].cell.set(data.X) && !degenerate) degenerate = failure_of(data, {});
       for (int a = 0; a < Element::nodes; ++a)
         data.at_top_plate = data.at_top_plate || mesh.nodes[mesh_cell.node[a]].on(Side::top_plate);
       data.history = offset;
@@ -381,7 +382,7 @@ private:
   Mat located = nullptr;                 ///< the matrix that `entries` is about
 
 public:
-  bool sound = true; ///< no cell is degenerate or inside out
+  std::optional<BulkFailure> degenerate; ///< where a cell is flat or inside out before the run
 };
 
 template <class Kinematics, int order>
@@ -391,9 +392,9 @@ PetscErrorCode Make(const Mesh &mesh, const Scene &scene, const Kinematics &kine
   const Viscoelastic<double> materials[2] = {scene.bottom.material, scene.top.material};
   PetscFunctionBeginUser;
   auto made = std::make_unique<BulkOf<Kinematics, order>>(mesh, kinematics, materials, memory);
-  PetscCheck(made->sound, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
-             "the mesh has a degenerate cell; allowed: other radii and heights, another -mesh_grading, or a -mesh_file "
-             "without it");
+  PetscCheck(!made->degenerate, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
+             "the mesh has a degenerate cell at %s; allowed: other radii and heights, or another -mesh_grading",
+             describe_place(mesh.dim, made->degenerate->X).c_str());
   bulk = std::move(made);
   PetscFunctionReturn(0);
 }

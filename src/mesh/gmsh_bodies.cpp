@@ -1,8 +1,11 @@
 #include "mesh/gmsh_bodies.hpp"
 
+#include "mesh/gmsh_file.hpp"
 #include "mesh/gmsh_groups.hpp"
-#include "scene/parse.hpp"
+#include "mesh/hexahedron.hpp"
 #include "scene/user_error.hpp"
+
+#include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,55 +18,45 @@ namespace tribogel
 namespace
 {
 
-using Place = std::array<double, 3>;
 using Face = std::array<int, 4>; ///< vertices, increasing
-
-/// Corners in Gmsh's order, lexicographic.
-constexpr int gmsh_corner[8] = {0, 1, 3, 2, 4, 5, 7, 6};
-
-/// Of a hexahedron in Gmsh's order of corners: its edges and faces in Gmsh's order of nodes.
-constexpr int gmsh_edge[12][2] = {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3},
-                                  {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}};
-constexpr int gmsh_face[6][4] = {{0, 3, 2, 1}, {0, 1, 5, 4}, {0, 4, 7, 3}, {1, 2, 6, 5}, {2, 3, 7, 6}, {4, 5, 6, 7}};
-
-constexpr const char *body_names[2] = {"bottom", "top"};
 
 bool stands_in(const GmshElement &element, const char *group)
 {
   return std::find(element.groups.begin(), element.groups.end(), group) != element.groups.end();
 }
 
-std::string in_words(const Place &X)
-{
-  return "(" + to_text(X[0]) + ", " + to_text(X[1]) + ", " + to_text(X[2]) + ")";
-}
-
 class Builder
 {
 public:
-  Builder(const GmshFile &given, bool top, int element_order) : file(given), has_top(top), order(element_order)
+  Builder(const GmshFile &given, bool top, int element_order)
+      : file(given), has_top(top), order(element_order), parts(given.elements.size())
   {
     mesh.dim = 3;
   }
 
-  SerialMesh build()
+  GmshBodies build()
   {
     expect_groups();
+    for (const GmshElement &element : file.elements) curved = curved || (element.dim == 3 && element.nodes.size() > 8);
     for (const GmshElement &element : file.elements)
       if (element.dim == 3) add_cell(element);
     for (const GmshElement &element : file.elements)
       if (element.dim == 2) name_face(element);
-    for (const auto &[face, known] : faces)
-      if (known.cells == 1) mesh.boundary.push_back({known.around, known.named ? known.side : Side::wall});
-    return std::move(mesh);
+    if (!left_out.empty())
+      bodies.warnings.push_back(std::string("hexahedra that are not in the physical ") +
+                                (has_top ? "volumes top and bottom" : "volume bottom") + " are left out (" +
+                                in_number(left_out.size()) + "element " + std::to_string(left_out.front()) + ")");
+    for (const auto &[vertices, face] : faces)
+      if (face.cells == 1) bodies.outer.push_back(face.outer);
+    for (const OuterFace &face : bodies.outer) mesh.boundary.push_back({face.around, face.side});
+    for (std::size_t c = 0; c < mesh.cell.size(); ++c) bodies.part.push_back(parts.find_set(static_cast<int>(c)));
+    return std::move(bodies);
   }
 
 private:
   struct KnownFace {
-    Face around{}; ///< its vertices one after the other
-    int cells = 0, body = 0;
-    bool named = false;
-    Side side = Side::wall;
+    OuterFace outer{}; ///< of the first cell
+    int cells = 0;
   };
 
   /// What must be there, all of it in the refusal.
@@ -101,49 +94,54 @@ private:
     return place->second;
   }
 
-  /// Columns of the Jacobian's determinant at a corner: its three edges.
-  double volume_at(const std::array<int, 8> &vertices, int corner) const
-  {
-    double edge[3][3];
-    for (int j = 0; j < 3; ++j) {
-      const Place &low = mesh.vertex[vertices[corner & ~(1 << j)]], &high = mesh.vertex[vertices[corner | 1 << j]];
-      for (int i = 0; i < 3; ++i) edge[j][i] = high[i] - low[i];
-    }
-    double volume = 0;
-    for (int i = 0; i < 3; ++i)
-      volume +=
-          edge[0][i] * (edge[1][(i + 1) % 3] * edge[2][(i + 2) % 3] - edge[1][(i + 2) % 3] * edge[2][(i + 1) % 3]);
-    return volume;
-  }
-
   void add_cell(const GmshElement &element)
   {
     const bool in[2] = {stands_in(element, "bottom"), has_top && stands_in(element, "top")};
-    if (!in[0] && !in[1]) return;
+    if (!in[0] && !in[1]) return left_out.push_back(element.tag);
     if (in[0] && in[1]) complain(element, "stands in top and in bottom; allowed: one of them");
+    std::vector<Place> given;
+    for (const long tag : element.nodes) given.push_back(file.nodes.at(tag));
+    const auto node = all_nodes(given);
+    if (const std::string fault = fault_of(node, given.size(), order); !fault.empty()) complain(element, fault);
     SerialMesh::Cell cell{{}, in[1] ? top_body : bottom_body, 0};
     std::array<int, 8> corner;
     double middle[2] = {};
     for (int v = 0; v < 8; ++v) {
       corner[v] = vertex(element, element.nodes[v], cell.body);
-      for (int j = 0; j < 2; ++j) middle[j] += mesh.vertex[corner[v]][j];
+      for (int j = 0; j < 2; ++j) middle[j] += node[v][j];
     }
     cell.key = std::atan2(middle[1], middle[0]);
     for (int v = 0; v < 8; ++v) cell.vertex[v] = corner[gmsh_corner[v]];
-    if (volume_at(cell.vertex, 0) < 0)
+    const bool left_handed = is_left_handed(node);
+    if (left_handed)
       for (int v : {1, 5}) std::swap(cell.vertex[v], cell.vertex[v + 1]);
-    for (int v = 0; v < 8; ++v)
-      if (!(volume_at(cell.vertex, v) > 0))
-        complain(element,
-                 "is degenerate or folded at " + in_words(mesh.vertex[cell.vertex[v]]) + "; allowed: convex hexahedra");
     mesh.cell.push_back(cell);
+    bodies.element.push_back(element.tag);
     for (const auto &local : gmsh_face) {
-      KnownFace &face = faces[key({corner[local[0]], corner[local[1]], corner[local[2]], corner[local[3]]})];
-      face.around = {corner[local[0]], corner[local[1]], corner[local[2]], corner[local[3]]};
-      face.body = cell.body;
-      if (++face.cells > 2) complain(element, "has a face that two others have; allowed: each cell once");
+      Face around{corner[local[0]], corner[local[1]], corner[local[2]], corner[local[3]]};
+      if (left_handed) std::reverse(around.begin(), around.end());
+      add_face(element, around);
     }
-    if (order == 2 && element.nodes.size() > 8) add_middles(element, corner);
+    if (order == 2 && (curved || given.size() > 8)) add_middles(element, corner, node);
+  }
+
+  /// Of the last cell, seen from outside.
+  void add_face(const GmshElement &element, const Face &around)
+  {
+    KnownFace &face = faces[key(around)];
+    const int cell = static_cast<int>(mesh.cell.size()) - 1;
+    if (++face.cells == 1) {
+      face.outer = {around, cell, Side::wall, {}, false};
+      return;
+    }
+    if (face.cells > 2) complain(element, "has a face that two others have; allowed: each cell once");
+    Face back = around;
+    std::reverse(back.begin(), back.end());
+    std::rotate(back.begin(), std::find(back.begin(), back.end(), face.outer.around[0]), back.end());
+    if (back != face.outer.around)
+      complain(element, "and element " + std::to_string(bodies.element[face.outer.cell]) +
+                            " overlap, they lie on the same side of a face; allowed: each cell once");
+    parts.union_set(face.outer.cell, cell);
   }
 
   static Face key(Face face)
@@ -152,65 +150,92 @@ private:
     return face;
   }
 
-  /// Of the 27 places those with two, four and eight corners; what an element of 20 nodes does not have is that of its
-  /// serendipity shape functions.
-  void add_middles(const GmshElement &element, const std::array<int, 8> &corner)
+  /// Of the 27 places those with two, four and eight corners.
+  void add_middles(const GmshElement &element, const std::array<int, 8> &corner, const std::array<Place, 27> &node)
   {
-    const auto node = [&](int k) { return file.nodes.at(element.nodes[k]); };
-    const auto put = [&](const std::vector<int> &vertices, const Place &X) { mesh.middle[middle_key(vertices)] = X; };
-    const bool whole = element.nodes.size() == 27;
-    for (int e = 0; e < 12; ++e) put({corner[gmsh_edge[e][0]], corner[gmsh_edge[e][1]]}, node(8 + e));
-    /// Corners by -1/4, edges by `weight`: 1/2 in a face, 1/4 in the cell.
-    const auto blend = [&](const std::vector<int> &corners, double weight) {
-      Place X{};
-      const auto has = [&](int v) { return std::find(corners.begin(), corners.end(), v) != corners.end(); };
-      const auto add = [&X](double w, const Place &x) {
-        for (int i = 0; i < 3; ++i) X[i] += w * x[i];
-      };
-      for (const int v : corners) add(-0.25, node(v));
-      for (int e = 0; e < 12; ++e)
-        if (has(gmsh_edge[e][0]) && has(gmsh_edge[e][1])) add(weight, node(8 + e));
-      return X;
-    };
-    for (int f = 0; f < 6; ++f) {
-      const std::vector<int> local(gmsh_face[f], gmsh_face[f] + 4);
+    for (int k = 8; k < 27; ++k) {
       std::vector<int> vertices;
-      for (const int v : local) vertices.push_back(corner[v]);
-      put(vertices, whole ? node(20 + f) : blend(local, 0.5));
+      for (const int v : corners_of_node(k)) vertices.push_back(corner[v]);
+      const auto [found, is_new] = mesh.middle.try_emplace(middle_key(vertices), node[k]);
+      if (!is_new) expect_same(element, vertices, node[k], found->second);
     }
-    put({corner.begin(), corner.end()}, whole ? node(26) : blend({0, 1, 2, 3, 4, 5, 6, 7}, 0.25));
+  }
+
+  /// The middle of an edge or a face where this element and where another one has it.
+  void expect_same(const GmshElement &element, const std::vector<int> &vertices, const Place &here,
+                   const Place &there) const
+  {
+    const Place &a = mesh.vertex[vertices[0]], &b = mesh.vertex[vertices[1]];
+    if (distance(here, there) <= same_place * distance(a, b)) return;
+    const auto has_all = [&](const SerialMesh::Cell &cell) {
+      return std::all_of(vertices.begin(), vertices.end(), [&](int v) {
+        return std::find(cell.vertex.begin(), cell.vertex.end(), v) != cell.vertex.end();
+      });
+    };
+    const auto other = std::find_if(mesh.cell.begin(), mesh.cell.end(), has_all) - mesh.cell.begin();
+    complain(element, "has the middle of " +
+                          (vertices.size() == 2 ? "the edge from " + in_words(a) + " to " + in_words(b)
+                                                : "the face at " + in_words(a)) +
+                          " at " + in_words(here) + ", element " + std::to_string(bodies.element[other]) + " at " +
+                          in_words(there) + "; allowed: one middle");
+  }
+
+  /// The face of a cell that has these corners.
+  KnownFace *face_of(const GmshElement &element)
+  {
+    Face vertices{};
+    for (int v = 0; v < 4; ++v) {
+      const auto found = vertex_of.find(element.nodes[v]);
+      if (found == vertex_of.end()) return nullptr;
+      vertices[v] = found->second;
+    }
+    const auto found = faces.find(key(vertices));
+    return found == faces.end() ? nullptr : &found->second;
   }
 
   void name_face(const GmshElement &element)
   {
+    KnownFace *const face = face_of(element);
+    bool known = false;
     for (const SurfaceGroup &group : surface_groups(has_top)) {
       if (!stands_in(element, group.name)) continue;
+      known = true;
       const std::string where = std::string("of ") + group.name + " ";
-      Face vertices{};
-      bool known = true;
-      for (int v = 0; v < 4; ++v) {
-        const auto found = vertex_of.find(element.nodes[v]);
-        known = known && found != vertex_of.end();
-        if (known) vertices[v] = found->second;
-      }
-      const auto face = known ? faces.find(key(vertices)) : faces.end();
-      if (face == faces.end() || face->second.cells != 1 || face->second.body != group.body)
+      if (!face || face->cells != 1 || mesh.cell[face->outer.cell].body != group.body)
         complain(element, where + "is not on the boundary of " + body_names[group.body] +
                               "; allowed: faces of one of its cells");
-      if (face->second.named && face->second.side != group.side)
+      if (face->outer.named && face->outer.side != group.side)
         complain(element, where + "stands in another surface too; allowed: one of them");
-      face->second.named = true;
-      face->second.side = group.side;
+      face->outer.named = true;
+      face->outer.side = group.side;
+    }
+    if (face && !known && !element.groups.empty()) face->outer.other_group = element.groups.front();
+    if (face && known && order == 2 && element.nodes.size() > 4) compare_middles(element);
+  }
+
+  /// The middles of a face's element are not used; where they differ from the cell's, the file means two things.
+  void compare_middles(const GmshElement &element) const
+  {
+    for (int k = 4; k < static_cast<int>(element.nodes.size()); ++k) {
+      std::vector<int> vertices;
+      for (int v = 0; v < 4; ++v)
+        if (k == 8 || v == k - 4 || v == (k - 3) % 4) vertices.push_back(vertex_of.at(element.nodes[v]));
+      const auto found = mesh.middle.find(middle_key(vertices));
+      if (found != mesh.middle.end()) expect_same(element, vertices, file.nodes.at(element.nodes[k]), found->second);
     }
   }
 
   const GmshFile &file;
   bool has_top;
   int order;
-  SerialMesh mesh;
+  GmshBodies bodies;
+  SerialMesh &mesh = bodies.mesh;
   std::map<long, int> vertex_of; ///< tags
   std::vector<int> body_of;      ///< vertices
   std::map<Face, KnownFace> faces;
+  boost::disjoint_sets_with_storage<> parts; ///< of cells that are joined through faces
+  std::vector<long> left_out;                ///< numbers of hexahedra
+  bool curved = false;                       ///< a cell has middles
 };
 
 } // namespace
@@ -233,10 +258,15 @@ std::array<int, 8> middle_key(const std::vector<int> &vertices)
   return key;
 }
 
-SerialMesh mesh_of_gmsh(std::istream &stream, bool has_top, int order)
+GmshBodies bodies_of_gmsh(std::istream &stream, bool has_top, int order)
 {
   const GmshFile file = read_gmsh(stream);
   return Builder(file, has_top, order).build();
+}
+
+SerialMesh mesh_of_gmsh(std::istream &stream, bool has_top, int order)
+{
+  return bodies_of_gmsh(stream, has_top, order).mesh;
 }
 
 } // namespace tribogel

@@ -4,6 +4,8 @@
 #include "mesh/blocks.hpp"
 
 #include <istream>
+#include <string>
+#include <vector>
 
 namespace tribogel
 {
@@ -16,12 +18,40 @@ struct SurfaceGroup {
 };
 std::vector<SurfaceGroup> surface_groups(bool has_top);
 
+/// The volumes' names.
+inline constexpr const char *body_names[2] = {"bottom", "top"};
+
+/// A face that one cell alone has.
+struct OuterFace {
+  std::array<int, 4> around; ///< its vertices, counter-clockwise seen from outside
+  int cell;                  ///< index into SerialMesh::cell
+  Side side;
+  std::string other_group; ///< a physical surface that means nothing here; empty without
+  bool named;              ///< stands in one of surface_groups
+};
+
+/// Bodies with what messages about them need.
+struct GmshBodies {
+  SerialMesh mesh;
+  std::vector<long> element; ///< number in the file of each cell
+  std::vector<int> part;     ///< of each cell: the same for cells that are joined through faces
+  std::vector<OuterFace> outer;
+  std::vector<std::string> warnings;
+};
+
+/// Two places are one if they are nearer than this part of the edges there: files have few digits.
+inline constexpr double same_place = 1e-4;
+
 /// The key of SerialMesh::middle.
 std::array<int, 8> middle_key(const std::vector<int> &vertices);
 
 /// The volumes `top` and `bottom`, or `bottom` alone, with these surfaces. Order 2 takes the middles of edges, faces
 /// and cells from hexahedra of second order; else they are means of the corners. Ranks get sectors about the z axis,
-/// the axis of the plates. Throws UserError, without the file's name, if this is not what the file holds.
+/// the axis of the plates. Throws UserError, without the file's name, if this is not what the file holds; whether the
+/// bodies are sound is for mesh/mesh_checks.hpp to say.
+GmshBodies bodies_of_gmsh(std::istream &stream, bool has_top, int order);
+
+/// Their mesh alone.
 SerialMesh mesh_of_gmsh(std::istream &stream, bool has_top, int order);
 
 } // namespace tribogel

@@ -3,6 +3,7 @@
 #include "mesh/cylinder.hpp"
 #include "mesh/face.hpp"
 #include "mesh/gmsh_bodies.hpp"
+#include "mesh/mesh_checks.hpp"
 #include "scene/first_process.hpp"
 #include "scene/parse.hpp"
 
@@ -90,9 +91,11 @@ SpecimenSizes measure(const SerialMesh &mesh, bool has_top)
   return sizes;
 }
 
-/// Reads the file; a complaint in words, empty if all is well.
-std::string read_file(const std::string &path, const Scene &scene, SerialMesh &mesh, SpecimenSizes &sizes)
+/// Reads the file; adds to the warnings; a complaint in words, empty if all is well.
+std::string read_file(SceneInput &input, SerialMesh &mesh, SpecimenSizes &sizes)
 {
+  const std::string &path = input.mesh_file;
+  const Scene &scene = input.scene;
   std::error_code ignored;
   const std::string file = "-mesh_file = " + path + ": ";
   if (!std::filesystem::exists(path, ignored))
@@ -103,8 +106,17 @@ std::string read_file(const std::string &path, const Scene &scene, SerialMesh &m
   std::ifstream stream(path);
   if (!stream) return file + "cannot be read; allowed: a Gmsh file";
   try {
-    mesh = mesh_of_gmsh(stream, scene.has_top, scene.mesh.element_order);
-    sizes = measure(mesh, scene.has_top);
+    double travel = 0;
+    for (const Phase &phase : scene.schedule) travel = std::max(travel, phase.end_approach);
+    GmshBodies bodies = bodies_of_gmsh(stream, scene.has_top, scene.mesh.element_order);
+    const std::vector<Touch> touches = touches_of(bodies);
+    expect_joined(bodies, touches);
+    expect_held(bodies, scene.has_top);
+    sizes = measure(bodies.mesh, scene.has_top);
+    expect_whole_groups(bodies, scene.has_top, travel);
+    expect_apart(bodies, touches);
+    for (const std::string &warning : bodies.warnings) input.warnings.push_back(file + warning);
+    mesh = std::move(bodies.mesh);
   } catch (const UserError &error) {
     return file + error.text;
   }
@@ -126,7 +138,7 @@ PetscErrorCode MakeMesh(MPI_Comm comm, SceneInput &input, SerialMesh &mesh)
     mesh = scene.model == Model::solid ? revolved_mesh(blocks) : serial_mesh(blocks);
     PetscFunctionReturn(0);
   }
-  PetscCall(OnFirstProcess(comm, [&] { return read_file(input.mesh_file, scene, mesh, sizes); }));
+  PetscCall(OnFirstProcess(comm, [&] { return read_file(input, mesh, sizes); }));
   std::vector<double> known{sizes.radius[0], sizes.radius[1], sizes.height[0], sizes.height[1], sizes.gap};
   PetscCall(Broadcast(comm, known));
   take_sizes(input, {{known[0], known[1]}, {known[2], known[3]}, known[4]});

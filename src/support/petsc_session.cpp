@@ -56,6 +56,12 @@ bool same(const std::string &said, const std::string &value)
   return x == y && end_of_word != word.c_str() && *end_of_word == 0 && *end_of_value == 0;
 }
 
+/// Of an option, rather than a value, which may be negative.
+bool is_name(const std::string &word)
+{
+  return word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1]));
+}
+
 /// The options whose value is a word of the message: PETSc does not say which one it could not read. From the database,
 /// and before there is one from the words that PETSc was given.
 std::string options_behind(const std::string &message)
@@ -70,7 +76,7 @@ std::string options_behind(const std::string &message)
   PetscFree(all);
   std::string found;
   for (std::size_t i = 1; i < words.size(); ++i)
-    if (words[i - 1][0] == '-' &&
+    if (is_name(words[i - 1]) && !is_name(words[i]) &&
         std::find(names_of_others.begin(), names_of_others.end(), words[i - 1]) == names_of_others.end() &&
         std::any_of(said.begin(), said.end(), [&](const std::string &word) { return same(word, words[i]); }))
       found += (found.empty() ? "" : ", ") + words[i - 1] + " = " + words[i];
