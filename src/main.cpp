@@ -7,6 +7,7 @@
 #include "scene/petsc_options.hpp"
 #include "scene/report.hpp"
 #include "scene/stored_options.hpp"
+#include "support/console.hpp"
 #include "support/exit_status.hpp"
 #include "support/petsc_session.hpp"
 #include "support/stop_signals.hpp"
@@ -21,11 +22,19 @@ namespace tribogel
 namespace
 {
 
-void print(const std::string &text)
+int rank_in_world()
 {
   int rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (rank == 0) std::fputs(text.c_str(), stdout);
+  return rank;
+}
+
+/// Prints all that was asked for. Returns the exit status.
+int answer(const std::string &text)
+{
+  const std::string why = rank_in_world() == 0 ? print_whole(text) : "";
+  if (!why.empty()) print_error("standard output: " + why);
+  return why.empty() ? exit_status::completed : exit_status::cannot_go_on;
 }
 
 std::string version_text()
@@ -89,7 +98,7 @@ PetscErrorCode Run(const CommandLine &line, int &status)
   PetscCall(problem.ProbeSolver());
   PetscCall(TakePetscHelp(petsc_help));
   if (line.help == HelpRequest::petsc) {
-    print(help_text() + "\nPETSc\n" + petsc_help);
+    status = answer(help_text() + "\nPETSc\n" + petsc_help);
     PetscFunctionReturn(0);
   }
   PetscCall(CheckUnusedOptions(line, petsc_help, input.warnings));
@@ -99,7 +108,7 @@ PetscErrorCode Run(const CommandLine &line, int &status)
   if (continues) PetscCall(checkpoint.Restore(stored, problem));
   PetscCall(PrepareOutputDirectory(comm, input.scene.output));
   catch_stop_signals();
-  print(scene_report(input));
+  if (rank == 0) std::fputs(scene_report(input).c_str(), stdout);
 
   set_error_status(exit_status::cannot_go_on);
   Progress progress(input.scene.schedule, rank == 0);
@@ -107,18 +116,29 @@ PetscErrorCode Run(const CommandLine &line, int &status)
   recorder.on_first_failure = [&progress](const StepFailure &failure) { progress.show(failure); };
   recorder.on_notice = [&progress](const std::string &text) { progress.show("note: " + text); };
   PetscCall(problem.Run({&recorder, &checkpoint}, completed, outcome.reason));
-  status = outcome.status = completed                       ? exit_status::completed
-                            : !problem.stop_request.empty() ? exit_status::stopped_on_request
-                                                            : exit_status::cannot_go_on;
-  if (status == exit_status::cannot_go_on) PetscCall(checkpoint.Write(problem));
+  outcome.status = completed                       ? exit_status::completed
+                   : !problem.stop_request.empty() ? exit_status::stopped_on_request
+                                                   : exit_status::cannot_go_on;
+  if (outcome.status == exit_status::cannot_go_on) {
+    PetscCall(checkpoint.Write(problem));
+    outcome.reason = problem.stop_reason;
+  }
   PetscCall(checkpoint.Cost(comm, cost));
-  const auto write = [&](const ErrorEstimate *estimate) {
-    return WriteSummary(comm, directory, problem, recorder, outcome, cost, resolved_options(input), input.warnings,
-                        estimate);
+  const auto write = [&](const ErrorEstimate *estimate) -> PetscErrorCode {
+    std::string complaint;
+    PetscFunctionBeginUser;
+    PetscCall(WriteSummary(comm, directory, problem, recorder, outcome, cost, resolved_options(input), input.warnings,
+                           estimate, complaint));
+    if (!complaint.empty()) outcome.fail(complaint);
+    PetscFunctionReturn(0);
   };
   PetscCall(write(nullptr));
   progress.finish(recorder, problem.counts, outcome, cost, directory);
-  PetscCall(ReportErrors(comm, input, from_file, start, recorder, completed, progress, write));
+  PetscCall(
+      ReportErrors(comm, input, from_file, start, recorder, outcome.status == exit_status::completed, progress, write));
+  status = outcome.status;
+  if (output_was_lost())
+    print_warning("standard output was closed or full: not all was printed that is in " + directory);
   if (status == exit_status::cannot_go_on) print_error(outcome.reason);
   PetscFunctionReturn(0);
 }
@@ -126,9 +146,9 @@ PetscErrorCode Run(const CommandLine &line, int &status)
 int run(const std::vector<std::string> &words)
 {
   const CommandLine line = read_command_line(words);
-  if (line.help == HelpRequest::version) return print(version_text()), exit_status::completed;
-  if (line.help == HelpRequest::table) return print(help_text()), exit_status::completed;
-  if (line.help == HelpRequest::markdown) return print(help_markdown()), exit_status::completed;
+  if (line.help == HelpRequest::version) return answer(version_text());
+  if (line.help == HelpRequest::table) return answer(help_text());
+  if (line.help == HelpRequest::markdown) return answer(help_markdown());
   check_sources(line);
   const PetscSession petsc(line.words);
   if (!petsc.started()) return error_status();
@@ -142,6 +162,7 @@ int run(const std::vector<std::string> &words)
 
 int main(int argc, char **argv)
 {
+  tribogel::occupy_standard_streams();
   MPI_Init(&argc, &argv);
   int status = tribogel::exit_status::bad_input;
   try {
