@@ -9,6 +9,7 @@
 #include "scene/petsc_options.hpp"
 #include "scene/report.hpp"
 #include "scene/stored_options.hpp"
+#include "support/console.hpp"
 #include "support/exit_status.hpp"
 #include "support/petsc_session.hpp"
 #include "support/stop_signals.hpp"
@@ -30,9 +31,12 @@ bool is_first_process()
   return rank == 0;
 }
 
-void print(const std::string &text)
+/// Prints all that was asked for. Returns the exit status.
+int answer(const std::string &text)
 {
-  if (is_first_process()) std::fputs(text.c_str(), stdout);
+  const std::string why = is_first_process() ? print_whole(text) : "";
+  if (!why.empty()) print_error("standard output: " + why);
+  return why.empty() ? exit_status::completed : exit_status::cannot_go_on;
 }
 
 std::string version_text()
@@ -101,7 +105,7 @@ PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
   PetscCall(problem.ProbeSolver());
   PetscCall(TakePetscHelp(petsc_help));
   if (help == HelpRequest::petsc) {
-    print(help_text() + "\nPETSc\n" + petsc_help);
+    status = answer(help_text() + "\nPETSc\n" + petsc_help);
     PetscFunctionReturn(0);
   }
   PetscCall(CheckUnusedOptions(sources, petsc_help, input.warnings));
@@ -111,7 +115,7 @@ PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
   if (continues) PetscCall(checkpoint.Restore(stored, problem));
   PetscCall(PrepareOutputDirectory(comm, input.scene.output));
   catch_stop_signals();
-  print(scene_report(input));
+  if (is_first_process()) std::fputs(scene_report(input).c_str(), stdout);
 
   set_error_status(exit_status::cannot_go_on);
   Progress progress(input.scene.schedule, is_first_process());
@@ -119,18 +123,29 @@ PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
   recorder.on_first_failure = [&progress](const StepFailure &failure) { progress.show(failure); };
   recorder.on_notice = [&progress](const std::string &text) { progress.show("note: " + text); };
   PetscCall(problem.Run({&recorder, &checkpoint}, completed, outcome.reason));
-  status = outcome.status = completed                       ? exit_status::completed
-                            : !problem.stop_request.empty() ? exit_status::stopped_on_request
-                                                            : exit_status::cannot_go_on;
-  if (status == exit_status::cannot_go_on) PetscCall(checkpoint.Write(problem));
+  outcome.status = completed                       ? exit_status::completed
+                   : !problem.stop_request.empty() ? exit_status::stopped_on_request
+                                                   : exit_status::cannot_go_on;
+  if (outcome.status == exit_status::cannot_go_on) {
+    PetscCall(checkpoint.Write(problem));
+    outcome.reason = problem.stop_reason;
+  }
   PetscCall(checkpoint.Cost(comm, cost));
-  const auto write = [&](const ErrorEstimate *estimate) {
-    return WriteSummary(comm, directory, problem, recorder, outcome, cost, resolved_options(input), input.warnings,
-                        estimate);
+  const auto write = [&](const ErrorEstimate *estimate) -> PetscErrorCode {
+    std::string complaint;
+    PetscFunctionBeginUser;
+    PetscCall(WriteSummary(comm, directory, problem, recorder, outcome, cost, resolved_options(input), input.warnings,
+                           estimate, complaint));
+    if (!complaint.empty()) outcome.fail(complaint);
+    PetscFunctionReturn(0);
   };
   PetscCall(write(nullptr));
   progress.finish(recorder, problem.counts, outcome, cost, directory);
-  PetscCall(ReportErrors(comm, input, from_file, start, recorder, completed, progress, write));
+  PetscCall(
+      ReportErrors(comm, input, from_file, start, recorder, outcome.status == exit_status::completed, progress, write));
+  status = outcome.status;
+  if (output_was_lost())
+    print_warning("standard output was closed or full: not all was printed that is in " + directory);
   if (status == exit_status::cannot_go_on) print_error(outcome.reason);
   PetscFunctionReturn(0);
 }
@@ -138,9 +153,9 @@ PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
 int run(const std::vector<std::string> &words)
 {
   const CommandLine line = read_command_line(words);
-  if (line.help == HelpRequest::version) return print(version_text()), exit_status::completed;
-  if (line.help == HelpRequest::table) return print(help_text()), exit_status::completed;
-  if (line.help == HelpRequest::markdown) return print(help_markdown()), exit_status::completed;
+  if (line.help == HelpRequest::version) return answer(version_text());
+  if (line.help == HelpRequest::table) return answer(help_text());
+  if (line.help == HelpRequest::markdown) return answer(help_markdown());
   const OptionSources sources = read_sources(line);
   std::vector<std::string> for_petsc = sources.words(words[0]);
   if (line.help == HelpRequest::petsc) for_petsc.emplace_back("-help");
@@ -156,6 +171,7 @@ int run(const std::vector<std::string> &words)
 
 int main(int argc, char **argv)
 {
+  tribogel::occupy_standard_streams();
   MPI_Init(&argc, &argv);
   int status = tribogel::exit_status::bad_input;
   try {

@@ -21,11 +21,6 @@ const std::string kind = std::string("checkpoint of tribogel ") + version;
 
 constexpr const char *mesh_name = "mesh"; ///< of its digest in the file
 
-std::string path_in(const std::string &directory)
-{
-  return directory + "/checkpoint.h5";
-}
-
 template <class Visitor> PetscErrorCode VisitCounts(SolveCounts &counts, Visitor &visit)
 {
   PetscFunctionBeginUser;
@@ -56,7 +51,7 @@ PetscErrorCode ReadStoredRun(MPI_Comm comm, const std::string &directory, Stored
   PetscFunctionBeginUser;
   stored.directory = directory;
   PetscCall(OnFirstProcess(comm, [&] {
-    const std::string why = read_data_file(path_in(stored.directory), kind, stored.data);
+    const std::string why = read_data_file(checkpoint_in(stored.directory), kind, stored.data);
     if (why.empty()) stored.options = stored.data.texts["options"];
     return why.empty() ? why
                        : "-restart = " + stored.directory + ": " + why +
@@ -148,7 +143,7 @@ PetscErrorCode Checkpoint::Step(Problem &problem, const StepReport &report)
   const bool over = problem.state.time == problem.scene.schedule.back().end_time;
   const bool stop = !over && (wish[signal] || wish[time_over]);
   if (stop || wish[due] || report.ends_phase) PetscCall(Write(problem));
-  if (stop) {
+  if (stop && problem.stop_reason.empty()) {
     char when[64];
     std::snprintf(when, sizeof when, " at t = %.10g s, to be continued with -restart ", problem.state.time);
     problem.stop_request = std::string("stopped by ") + (wish[signal] ? stop_signal_name(wish[signal]) : "-wall_time") +
@@ -163,6 +158,7 @@ PetscErrorCode Checkpoint::Write(Problem &problem)
   RunCost cost;
   PetscMPIInt rank;
   PetscFunctionBeginUser;
+  if (!recorder.complaint.empty()) PetscFunctionReturn(0); // the last one fits what is in the files
   PetscCall(PetscLogEventBegin(problem.events.checkpoint, 0, 0, 0, 0));
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.state.U)));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
@@ -174,7 +170,7 @@ PetscErrorCode Checkpoint::Write(Problem &problem)
   PetscCall(VisitCost(cost, save));
   std::string complaint;
   const auto write = [&] {
-    recorder.bring_to_disk();
+    if (std::string failed = recorder.bring_to_disk(); !failed.empty()) return failed + recorder.way_out(problem);
     data.numbers["rows"] = numbers_of(recorder.rows);
     data.numbers["phases"] = numbers_of(recorder.phases);
     data.numbers["bytes"].assign(recorder.bytes.begin(), recorder.bytes.end());
@@ -182,10 +178,11 @@ PetscErrorCode Checkpoint::Write(Problem &problem)
     data.texts[mesh_name] = mesh;
     std::string &notices = data.texts["notices"];
     for (const std::string &line : recorder.notices) notices += line + "\n";
-    return write_data_file(path_in(output.directory), kind, data);
+    const std::string failed = write_data_file(checkpoint_in(output.directory), kind, data);
+    return failed.empty() ? failed : failed + recorder.way_out(problem);
   };
   PetscCall(OnFirstProcess(comm, write, complaint)); // PETSc calls this: nothing may be thrown
-  PetscCheck(complaint.empty(), comm, PETSC_ERR_FILE_WRITE, "%s", complaint.c_str());
+  if (!complaint.empty()) problem.stop_for(complaint);
   last_written = MPI_Wtime();
   PetscCall(PetscLogEventEnd(problem.events.checkpoint, 0, 0, 0, 0));
   PetscFunctionReturn(0);

@@ -37,6 +37,8 @@ public:
 
   PetscErrorCode Start(Problem &problem) override;
   PetscErrorCode Step(Problem &problem, const StepReport &report) override;
+
+  /// One that cannot be written ends the run and leaves the last one; nor is there a new one where rows are missing.
   PetscErrorCode Write(Problem &problem);
 
   /// Of this program and of those it continues. Collective.

@@ -1,7 +1,6 @@
 #include "observe/recorder.hpp"
 
 #include "scene/first_process.hpp"
-#include "support/data_file.hpp"
 
 #include <array>
 #include <cmath>
@@ -49,6 +48,19 @@ template <class... Cells> std::string comma_separated(const Cells &...cells)
   return line;
 }
 
+std::string text_of(const HistoryRow &row)
+{
+  const Measurement &m = row.measurement;
+  const EnergyBalance &e = row.energy;
+  return comma_separated(row.time, row.phase, row.approach, row.rotation, row.rate, m.normal_force, m.torque,
+                         m.contact_radius, m.mu_apparent, m.mu_gong, m.mu_mean, m.mu_area_weighted,
+                         m.mu_pressure_weighted, row.report.newton_iterations, row.report.linear_iterations, row.step,
+                         m.contact_force, m.contact_torque, m.force_mismatch(), m.torque_mismatch(), e.work, e.stored,
+                         e.viscous, e.friction, m.transverse_force[0], m.transverse_force[1], m.bending_moment[0],
+                         m.bending_moment[1]) +
+         '\n';
+}
+
 /// How far the bottom surface has gone down at the current radius r, between its nodes; a surface in space has them in
 /// any order and more than one at a radius.
 double displacement_at(const std::vector<ProfileRow> &profile, double r)
@@ -74,14 +86,40 @@ PetscErrorCode Recorder::Start(Problem &problem)
 {
   PetscFunctionBeginUser;
   const bool goes_on = !rows.empty();
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(problem.mesh.dm)));
-  std::string complaint;
-  if (!directory.empty())
-    PetscCall(OnFirstProcess(
-        comm, [&] { return open(goes_on); }, complaint));
-  PetscCheck(complaint.empty(), comm, PETSC_ERR_FILE_WRITE, "%s", complaint.c_str());
+  PetscCall(Write(problem, [&] { return open(goes_on); }));
   if (!goes_on) PetscCall(Record(problem, {}));
   PetscFunctionReturn(0);
+}
+
+/// The first process works; what it could not write ends the run on all.
+PetscErrorCode Recorder::Write(Problem &problem, const std::function<std::string()> &work)
+{
+  PetscFunctionBeginUser;
+  if (directory.empty() || !complaint.empty()) PetscFunctionReturn(0);
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(problem.mesh.dm)));
+  const auto explained = [&] {
+    const std::string failed = work();
+    return failed.empty() ? failed : failed + way_out(problem);
+  };
+  PetscCall(OnFirstProcess(comm, explained, complaint));
+  if (!complaint.empty()) problem.stop_for(complaint);
+  PetscFunctionReturn(0);
+}
+
+std::string Recorder::way_out(const Problem &problem) const
+{
+  char when[40];
+  std::snprintf(when, sizeof when, " (at t = %.10g s); ", problem.state.time);
+  std::error_code ignored;
+  const bool resumable = std::filesystem::exists(checkpoint_in(directory), ignored);
+  return when + (resumable
+                     ? "what was written before is kept, and -restart " + directory + " goes on from its checkpoint"
+                     : "there is no checkpoint to go on from");
+}
+
+std::string checkpoint_in(const std::string &directory)
+{
+  return directory + "/checkpoint.h5";
 }
 
 std::array<std::string, 2> Recorder::paths() const
@@ -92,25 +130,22 @@ std::array<std::string, 2> Recorder::paths() const
 /// New files, or those that are there without what was written after the last checkpoint. Returns what went wrong.
 std::string Recorder::open(bool goes_on)
 {
+  const std::array<std::string, 2> headers = {history_header + std::string("\n"), profile_header + std::string("\n")};
   for (std::size_t k = 0; k < bytes.size(); ++k) {
-    std::error_code failed;
-    if (goes_on) std::filesystem::resize_file(paths()[k], bytes[k], failed);
-    std::ofstream &file = k == 0 ? history : profile;
-    file.open(paths()[k], goes_on ? std::ios::app : std::ios::trunc);
-    if (!goes_on) file << (k == 0 ? history_header : profile_header) << std::endl;
-    if (failed || !file) return paths()[k] + " cannot be written";
+    GrowingFile &file = k == 0 ? history : profile;
+    std::string failed = goes_on ? file.resume(paths()[k], bytes[k]) : file.create(paths()[k]);
+    if (failed.empty() && !goes_on) failed = file.append(headers[k]);
+    if (!failed.empty()) return failed;
   }
   return {};
 }
 
-void Recorder::bring_to_disk()
+std::string Recorder::bring_to_disk()
 {
-  if (!history.is_open()) return;
-  for (std::size_t k = 0; k < bytes.size(); ++k) {
-    std::error_code ignored;
-    tribogel::bring_to_disk(paths()[k]);
-    bytes[k] = std::filesystem::file_size(paths()[k], ignored);
-  }
+  bytes = {history.size(), profile.size()};
+  for (GrowingFile *file : {&history, &profile})
+    if (std::string failed = file->bring_to_disk(); !failed.empty()) return failed;
+  return {};
 }
 
 std::string Recorder::objection_to_resume() const
@@ -165,40 +200,26 @@ PetscErrorCode Recorder::Record(Problem &problem, const StepReport &report)
   PetscCall(AddEnergies(problem, rows.empty() ? nullptr : &rows.back().measurement, row.measurement,
                         rows.empty() ? EnergyBalance{} : rows.back().energy, row.energy));
   rows.push_back(row);
-  write_row(row);
+  PetscCall(Write(problem, [&] { return history.append(text_of(row)); }));
   if (report.ends_phase) {
     last_profile = std::move(surfaces);
     phases.push_back({row.phase, row.time, row.approach, row.rotation, row.rate, row.measurement,
                       displacement_at(last_profile, 0), displacement_at(last_profile, row.measurement.contact_radius)});
-    write_profile(row.time, row.phase);
+    PetscCall(Write(problem, [&] { return profile.append(profile_of(phases.back())); }));
   }
   if (on_row) on_row(row);
   PetscFunctionReturn(0);
 }
 
-void Recorder::write_row(const HistoryRow &row)
+std::string Recorder::profile_of(const PhaseEnd &end) const
 {
-  if (!history.is_open()) return;
-  const Measurement &m = row.measurement;
-  const EnergyBalance &e = row.energy;
-  history << comma_separated(row.time, row.phase, row.approach, row.rotation, row.rate, m.normal_force, m.torque,
-                             m.contact_radius, m.mu_apparent, m.mu_gong, m.mu_mean, m.mu_area_weighted,
-                             m.mu_pressure_weighted, row.report.newton_iterations, row.report.linear_iterations,
-                             row.step, m.contact_force, m.contact_torque, m.force_mismatch(), m.torque_mismatch(),
-                             e.work, e.stored, e.viscous, e.friction, m.transverse_force[0], m.transverse_force[1],
-                             m.bending_moment[0], m.bending_moment[1])
-          << std::endl;
-}
-
-void Recorder::write_profile(double time, int phase)
-{
-  if (!profile.is_open()) return;
+  std::string text;
   for (const ProfileRow &row : last_profile)
-    profile << comma_separated(time, phase, row.surface, row.reference_r, row.reference_theta, row.reference_z, row.r,
-                               row.theta, row.z, row.pressure, row.traction_radial, row.traction_circumferential,
-                               row.sliding_velocity, row.mu, row.status)
-            << '\n';
-  profile.flush();
+    text += comma_separated(end.time, end.phase, row.surface, row.reference_r, row.reference_theta, row.reference_z,
+                            row.r, row.theta, row.z, row.pressure, row.traction_radial, row.traction_circumferential,
+                            row.sliding_velocity, row.mu, row.status) +
+            '\n';
+  return text;
 }
 
 } // namespace tribogel

@@ -1,14 +1,14 @@
 /// Measures each accepted step and writes history.csv (a row a step) and profile.csv (the surfaces at each phase's
-/// end). Rows are flushed as they come, so that nothing is lost when a run dies. A recorder that has rows when it
-/// starts goes on with the files of the run that they are from.
+/// end). Rows are written as they come, so that nothing is lost when a run dies; the first that cannot be written ends
+/// the run. A recorder that has rows when it starts goes on with the files of the run that they are from.
 #pragma once
 
 #include "observe/energy.hpp"
 #include "observe/measure.hpp"
+#include "support/files.hpp"
 
 #include <array>
 #include <cstdint>
-#include <fstream>
 #include <functional>
 
 namespace tribogel
@@ -32,6 +32,9 @@ struct HistoryRow {
   StepReport report;
 };
 
+/// Where the run in `directory` keeps its checkpoint.
+std::string checkpoint_in(const std::string &directory);
+
 class Recorder : public Observer
 {
 public:
@@ -43,13 +46,17 @@ public:
   PetscErrorCode Failed(Problem &problem, const StepFailure &failure) override;
   PetscErrorCode Notice(Problem &problem, const std::string &text) override;
 
-  /// First process: the files' rows so far survive the machine's end; `bytes` is updated.
-  void bring_to_disk();
+  /// First process: the files' rows so far survive the machine's end; `bytes` is updated. Returns what went wrong.
+  std::string bring_to_disk();
 
   /// First process: what speaks against going on behind the first `bytes` of the files; empty if nothing does.
   std::string objection_to_resume() const;
 
+  /// First process, behind the reason why a file cannot be written: when it was, what is left, how to go on.
+  std::string way_out(const Problem &problem) const;
+
   std::array<std::uintmax_t, 2> bytes{}; ///< of history.csv and profile.csv that belong to `rows` and `phases`
+  std::string complaint;                 ///< why rows are missing in the files, the same on all ranks; empty: none is
   std::vector<HistoryRow> rows;
   std::vector<PhaseEnd> phases;
   std::vector<std::string> notices;                    ///< what the problem had to tell
@@ -62,11 +69,11 @@ private:
   std::array<std::string, 2> paths() const;
   std::string open(bool goes_on);
   PetscErrorCode Record(Problem &problem, const StepReport &report);
-  void write_row(const HistoryRow &row);
-  void write_profile(double time, int phase);
+  PetscErrorCode Write(Problem &problem, const std::function<std::string()> &work);
+  std::string profile_of(const PhaseEnd &end) const;
 
   std::string directory;
-  std::ofstream history, profile;
+  GrowingFile history, profile;
 };
 
 } // namespace tribogel

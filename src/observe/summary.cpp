@@ -1,13 +1,13 @@
 #include "observe/summary.hpp"
 
+#include "scene/first_process.hpp"
+#include "support/files.hpp"
 #include "support/version.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 
 namespace tribogel
 {
@@ -104,21 +104,19 @@ Json describe(const ErrorEstimate &estimate, const std::vector<PhaseEnd> &ends)
   return json;
 }
 
-} // namespace
-
-PetscErrorCode WriteSummary(MPI_Comm comm, const std::string &directory, const Problem &problem,
-                            const Recorder &recorder, const RunOutcome &outcome, const RunCost &cost,
-                            const std::vector<std::pair<std::string, std::string>> &options,
-                            const std::vector<std::string> &warnings, const ErrorEstimate *estimate)
+std::string petsc_version()
 {
-  PetscMPIInt rank;
-  PetscFunctionBeginUser;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  if (rank) PetscFunctionReturn(0);
-  char petsc[256];
-  PetscCall(PetscGetVersion(petsc, sizeof petsc));
+  char text[256];
+  PetscGetVersion(text, sizeof text);
+  return text;
+}
+
+Json summary_of(const Problem &problem, const Recorder &recorder, const RunOutcome &outcome, const RunCost &cost,
+                const std::vector<std::pair<std::string, std::string>> &options,
+                const std::vector<std::string> &warnings, const ErrorEstimate *estimate)
+{
   Json json;
-  json["program"] = {{"name", "tribogel"}, {"version", version}, {"petsc", petsc}};
+  json["program"] = {{"name", "tribogel"}, {"version", version}, {"petsc", petsc_version()}};
   json["status"] = outcome.status;
   json["reason"] = outcome.reason;
   json["time_s"] = problem.state.time;
@@ -152,10 +150,26 @@ PetscErrorCode WriteSummary(MPI_Comm comm, const std::string &directory, const P
                   {"wall_s", cost.wall_seconds},
                   {"peak_memory_MB", cost.peak_memory_MB}};
   if (estimate) json["error_estimate"] = describe(*estimate, recorder.phases);
-  const std::string path = directory + "/summary.json", temporary = path + ".part";
-  std::ofstream(temporary) << json.dump(2) << std::endl;
-  PetscCheck(std::rename(temporary.c_str(), path.c_str()) == 0, PETSC_COMM_SELF, PETSC_ERR_FILE_WRITE,
-             "cannot write %s", path.c_str());
+  return json;
+}
+
+} // namespace
+
+PetscErrorCode WriteSummary(MPI_Comm comm, const std::string &directory, const Problem &problem,
+                            const Recorder &recorder, const RunOutcome &outcome, const RunCost &cost,
+                            const std::vector<std::pair<std::string, std::string>> &options,
+                            const std::vector<std::string> &warnings, const ErrorEstimate *estimate,
+                            std::string &complaint)
+{
+  constexpr int indentation = 2;
+  PetscFunctionBeginUser;
+  const auto write = [&] {
+    const Json json = summary_of(problem, recorder, outcome, cost, options, warnings, estimate);
+    // A directory's name need not be UTF-8.
+    const std::string text = json.dump(indentation, ' ', false, Json::error_handler_t::replace);
+    return replace_file(directory + "/summary.json", text + "\n");
+  };
+  PetscCall(OnFirstProcess(comm, write, complaint));
   PetscFunctionReturn(0);
 }
 

@@ -9,8 +9,8 @@ namespace tribogel
 {
 
 /// Files that tribogel writes into a run's directory; -overwrite replaces these and no others.
-inline constexpr const char *run_files[] = {"history.csv", "profile.csv",   "summary.json",      "fields.h5",
-                                            "fields.xdmf", "checkpoint.h5", "checkpoint.h5.part"};
+inline constexpr const char *run_files[] = {"history.csv", "profile.csv", "summary.json",  "summary.json.part",
+                                            "fields.h5",   "fields.xdmf", "checkpoint.h5", "checkpoint.h5.part"};
 
 /// What speaks against writing a run there, in words; empty if nothing does. Touches nothing.
 std::string objection_to(const OutputParameters &output);

@@ -83,7 +83,8 @@ std::string text_of_options(const SceneInput &input)
   const auto all = resolved_options(input);
   for (std::size_t k = input.options.size(); k < all.size(); ++k)
     if (all[k].first != "PETSC_OPTIONS" && !is_read_late(all[k].first)) solver["-" + all[k].first] = all[k].second;
-  return Json{{"given", given}, {"resolved", resolved}, {"solver", solver}}.dump(1);
+  const Json all_of_them{{"given", given}, {"resolved", resolved}, {"solver", solver}};
+  return all_of_them.dump(1, ' ', false, Json::error_handler_t::replace); // a path need not be UTF-8
 }
 
 PetscErrorCode AdoptOptions(const std::string &stored)

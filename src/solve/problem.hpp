@@ -82,8 +82,8 @@ public:
   PetscErrorCode ProbeSolver();
 
   /// Run the schedule from the state on, which may be in the midst of a phase. `completed` is false when a step fails
-  /// at the smallest size, `why` then says where and why; or when an observer has asked for a stop, `why` is its
-  /// request.
+  /// at the smallest size or an observer cannot do its work, `why` then says where and why; or when an observer has
+  /// asked for a stop, `why` is its request.
   PetscErrorCode Run(const std::vector<Observer *> &observers, bool &completed, std::string &why);
 
   /// Solution and rate in local vectors, prescribed values included. Collective.
@@ -133,7 +133,13 @@ public:
   std::string contact_failure;
   WorstResidual worst;
   StepFailure last_failure; ///< words empty: none yet
-  std::string stop_reason;  ///< why an accepted step ends the run; empty: it goes on
+  std::string stop_reason;  ///< why the run cannot go on behind an accepted step; empty: it can
+
+  /// To `stop_reason`, once.
+  void stop_for(const std::string &reason)
+  {
+    if (stop_reason.find(reason) == std::string::npos) stop_reason += (stop_reason.empty() ? "" : "; ") + reason;
+  }
 
   /// Of the last Newton iteration, by `worst`; infinite outside of a solve and in its first iteration.
   double contraction = std::numeric_limits<double>::infinity();

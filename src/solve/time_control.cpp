@@ -301,6 +301,7 @@ PetscErrorCode Problem::Run(const std::vector<Observer *> &observers, bool &comp
   PetscFunctionBeginUser;
   watching = observers;
   stop_request.clear();
+  stop_reason.clear();
   const auto phases = static_cast<int>(scene.schedule.size());
   const SolveCounts known = counts;
   rejected_before = failed_before = 0;
@@ -309,15 +310,17 @@ PetscErrorCode Problem::Run(const std::vector<Observer *> &observers, bool &comp
   failed_before = known.failed_solves - counts.failed_solves;
   PetscCall(TSSetStepNumber(ts, counts.accepted_steps));
   for (Observer *observer : watching) PetscCall(observer->Start(*this));
-  bool failed = false;
   for (int k = state.time < phase().end_time ? state.phase : state.phase + 1;
-       k < phases && !failed && stop_request.empty(); ++k) {
+       k < phases && stop_reason.empty() && stop_request.empty(); ++k) {
     TSConvergedReason reason;
     PetscCall(RunPhase(k));
     PetscCall(TSGetConvergedReason(ts, &reason));
-    failed = stop_request.empty() && (reason <= 0 || state.time != phase().end_time || !stop_reason.empty());
-    why = !failed ? stop_request : stop_reason.empty() ? Explain(reason) : stop_reason;
+    const bool ended = !stop_reason.empty() || !stop_request.empty();
+    if (!ended && (reason <= 0 || state.time != phase().end_time)) stop_for(Explain(reason));
   }
+  const bool failed = !stop_reason.empty();
+  if (failed) stop_request.clear(); // it cannot be continued from here
+  why = failed ? stop_reason : stop_request;
   completed = !failed && state.time == scene.schedule.back().end_time;
   PetscCall(CountFailures());
   PetscFunctionReturn(0);

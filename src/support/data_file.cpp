@@ -1,13 +1,9 @@
 #include "support/data_file.hpp"
 
+#include "support/files.hpp"
+
 #include <hdf5.h>
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 
 namespace tribogel
@@ -25,15 +21,12 @@ public:
   Id(hid_t opened, herr_t (*closing)(hid_t)) : id(opened), close(closing) {}
   Id(const Id &) = delete;
   Id &operator=(const Id &) = delete;
-  ~Id() { release(); }
+  ~Id()
+  {
+    if (open()) close(id);
+  }
   operator hid_t() const { return id; }
   bool open() const { return id >= 0; }
-  bool release() ///< false if closing failed, which may be when the data are written
-  {
-    const bool closed = id < 0 || close(id) >= 0;
-    id = -1;
-    return closed;
-  }
 
 private:
   hid_t id;
@@ -54,7 +47,7 @@ bool write_array(hid_t file, const std::string &name, hid_t stored, hid_t given,
   return set.open() && (size == 0 || H5Dwrite(set, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
 }
 
-bool write_all(hid_t file, const std::string &kind, const DataFile &data)
+bool fill(hid_t file, const std::string &kind, const DataFile &data)
 {
   const auto write_text = [file](const std::string &name, const std::string &text) {
     return write_array(file, name, H5T_STD_U8LE, H5T_NATIVE_UCHAR, text.data(), text.size());
@@ -64,6 +57,21 @@ bool write_all(hid_t file, const std::string &kind, const DataFile &data)
   for (const auto &[name, values] : data.numbers)
     good = good && write_array(file, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.data(), values.size());
   return good;
+}
+
+/// The file's bytes. HDF5 makes them in memory: one that cannot write to a device is left with an open file, and takes
+/// the program down when that ends.
+bool image_of(const std::string &kind, const DataFile &data, std::string &image)
+{
+  constexpr std::size_t growth = 1 << 20; // of the memory, at a time [bytes]
+  const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  if (H5Pset_fapl_core(access, growth, false) < 0) return false;
+  const Id file(H5Fcreate("in memory", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+  if (!file.open() || !fill(file, kind, data) || H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) return false;
+  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+  if (size <= 0) return false;
+  image.resize(static_cast<std::size_t>(size));
+  return H5Fget_file_image(file, image.data(), image.size()) == size;
 }
 
 /// A one-dimensional array into `numbers` or, if it holds bytes, into `text`.
@@ -110,26 +118,12 @@ bool read_all(hid_t file, DataFile &data)
 
 } // namespace
 
-bool bring_to_disk(const std::string &path)
-{
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return false;
-  const bool good = fsync(file) == 0;
-  close(file);
-  return good;
-}
-
 std::string write_data_file(const std::string &path, const std::string &kind, const DataFile &data)
 {
-  const std::string part = path + ".part";
   silence_hdf5();
-  Id file(H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
-  if (!file.open()) return part + " cannot be written";
-  const bool written = write_all(file, kind, data);
-  if (!file.release() || !written || !bring_to_disk(part)) return part + " cannot be written in full";
-  if (std::rename(part.c_str(), path.c_str()) != 0) return path + ": " + std::strerror(errno);
-  bring_to_disk(std::filesystem::absolute(path).parent_path().string());
-  return {};
+  std::string image;
+  if (!image_of(kind, data, image)) return path + ": HDF5 cannot make its image in memory";
+  return replace_file(path, image);
 }
 
 std::string read_data_file(const std::string &path, const std::string &kind, DataFile &data)

@@ -13,12 +13,9 @@ struct DataFile {
   std::map<std::string, std::string> texts;
 };
 
-/// To `path`.part first, brought to the disk, then renamed; every array has a checksum. `kind` tells such files from
-/// others. Returns what went wrong, empty if nothing did.
+/// As replace_file does it; every array has a checksum. `kind` tells such files from others. Returns what went wrong,
+/// empty if nothing did.
 std::string write_data_file(const std::string &path, const std::string &kind, const DataFile &data);
-
-/// What has been written to a file or directory survives the machine's end; false if that cannot be had.
-bool bring_to_disk(const std::string &path);
 
 /// The counterpart of writing; a file that is cut short, damaged or of another kind is not taken.
 std::string read_data_file(const std::string &path, const std::string &kind, DataFile &data);

@@ -25,6 +25,8 @@ void catch_stop_signals()
   action.sa_flags = SA_RESTART; // reading and writing go on
   sigemptyset(&action.sa_mask);
   for (int signal : {SIGUSR1, SIGTERM, SIGINT}) sigaction(signal, &action, nullptr);
+  action.sa_handler = SIG_IGN;
+  for (int signal : {SIGXFSZ, SIGPIPE}) sigaction(signal, &action, nullptr);
 }
 
 int caught_stop_signal()
