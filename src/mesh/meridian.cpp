@@ -88,23 +88,33 @@ namespace
 /// slides outwards over the softer-held bottom gel, by 0.4 mm on the paper scene (approach 0.79 mm): a band as wide as
 /// the approach gets edges of one size. With edges fine at the top's radius only, the pressure at the rim wiggled by 25
 /// %.
+///
+/// Neither the band nor what is left of the radius beyond it is cut into anything narrower than the band's refined
+/// edges. In space a ring that is narrower than the arc of one of its cells is high has facets bent like a hoop, and
+/// what their chords miss is wider than they are.
 std::vector<double> radii_under_rim(const Scene &scene, const SizeField &field)
 {
   const double rim = std::min(scene.top.radius, scene.bottom.radius), outer = scene.bottom.radius;
+  const double narrowest = field.largest / band_refinement;
+  if (outer - rim < narrowest) return points_between(0, outer, false, true, field); // fine at the rim as it is
   double travel = 0;
   for (const Phase &phase : scene.schedule) travel = std::max({travel, phase.start_approach, phase.end_approach});
   SizeField in_band = field;
-  in_band.smallest = std::max(field.smallest, field.largest / band_refinement);
+  in_band.smallest = std::max(field.smallest, narrowest);
   const auto append = [](std::vector<double> &points, const std::vector<double> &more) {
     points.insert(points.end(), more.begin() + 1, more.end());
   };
-  if (rim == outer) return points_between(0, rim, false, true, field);
   std::vector<double> R = points_between(0, rim, false, true, in_band);
-  const double end = std::min(rim + std::max(0.0, travel - scene.initial_gap), 0.5 * (rim + outer));
-  if (end > rim)
+  double end = rim; // of the band
+  if (0.5 * (outer - rim) >= narrowest) {
+    end = std::min(rim + std::max(narrowest, travel - scene.initial_gap), 0.5 * (rim + outer));
     append(R, points_between(rim, end, false, false, {in_band.smallest, in_band.smallest, field.zone, field.halves}));
-  const double middle = 0.5 * (end + outer);
-  append(R, points_between(end, middle, true, false, in_band));
+  }
+  double middle = end;
+  if (0.5 * (outer - end) >= narrowest) {
+    middle = 0.5 * (end + outer);
+    append(R, points_between(end, middle, true, false, in_band));
+  }
   append(R, points_between(middle, outer, false, true, field));
   return R;
 }
