@@ -52,22 +52,22 @@ def damaged(random, _):
 
 
 def other_mesh(random, _):
+    """Continued with the mesh in other words, elsewhere, or with another one."""
     mesh, settings = gels(random)
-    before = text_of(mesh)
-    kind = random.choice(("a node moved", "nodes renumbered", "the same elsewhere"))
-    words = ["-restart", "run"]
-    change = {"gels.msh": before.encode()}
-    if kind == "a node moved":
+    before, path = text_of(mesh), "gels.msh"
+    about, expected = random.choice((("a node moved", "refused"), ("elements in another order", "refused"),
+                                     ("nodes renumbered", "runs"), ("the same mesh elsewhere", "runs")))
+    if about == "a node moved":
         at = random.randrange(len(mesh.nodes))
         mesh.nodes[at] = tuple(x * (1 + 1e-3 * random.random()) + 1e-4 for x in mesh.nodes[at])
-        change = {"gels.msh": text_of(mesh).encode()}
-    elif kind == "nodes renumbered":
-        change = {"gels.msh": renumbered(random, mesh).encode()}
-    else:
-        change, words = {"there/other.msh": before.encode()}, [*words, "-mesh_file", "there/other.msh"]
-    return Case(f"restart with {kind}", "runs" if kind == "the same elsewhere" else "refused", words=words,
-                names=("mesh",), files={"gels.msh": before.encode()}, change=change,
-                first=[*words_of(settings), "-output_directory", "run", *STOPPED])
+    elif about == "elements in another order":
+        mesh.elements.reverse()
+    elif about == "the same mesh elsewhere":
+        path = "there/other.msh"
+    after = renumbered(random, mesh) if about == "nodes renumbered" else text_of(mesh)
+    return Case(f"restart with {about}", expected, names=("mesh",), files={"gels.msh": before.encode()},
+                first=[*words_of(settings), "-output_directory", "run", *STOPPED], change={path: after.encode()},
+                words=["-restart", "run", *(["-mesh_file", path] if path != "gels.msh" else [])])
 
 
 def no_room(random, _):
