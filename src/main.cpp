@@ -162,7 +162,11 @@ int run(const std::vector<std::string> &words)
   const PetscSession petsc(for_petsc, option_names());
   if (!petsc.started()) return error_status();
   int status = exit_status::completed;
-  return Run(line.help, sources, status) == 0 ? status : error_status();
+  try {
+    return Run(line.help, sources, status) == 0 ? status : error_status();
+  } catch (const UserError &error) {
+    throw located(error, sources);
+  }
 }
 
 } // namespace

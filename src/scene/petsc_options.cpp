@@ -162,14 +162,10 @@ PetscErrorCode ReadScene(const OptionSources &sources, SceneInput &input)
   GivenOptions given, of_petsc;
   bool found;
   PetscFunctionBeginUser;
-  try {
-    PetscCall(ReadGivenOptions(given));
-    for (const std::string &name : limited_petsc_options()) PetscCall(GetOption(name, of_petsc, found));
-    for (const auto &[name, value] : of_petsc) check_petsc_option(name, value);
-    input = scene_from_options(given);
-  } catch (const UserError &error) {
-    throw located(error, sources);
-  }
+  PetscCall(ReadGivenOptions(given));
+  for (const std::string &name : limited_petsc_options()) PetscCall(GetOption(name, of_petsc, found));
+  for (const auto &[name, value] : of_petsc) check_petsc_option(name, value);
+  input = scene_from_options(given);
   input.notes.insert(input.notes.begin(), sources.notes.begin(), sources.notes.end()); // the first process has them
   const auto tolerance = of_petsc.find("-ts_atol"), control = of_petsc.find("-ts_adapt_type");
   if (tolerance != of_petsc.end() && !given.count("-time_tolerance"))

@@ -13,7 +13,7 @@ namespace tribogel
 /// not PETSc's to judge: one that begins like ours or looks like a misspelling of ours.
 PetscErrorCode ReadGivenOptions(GivenOptions &given);
 
-/// Options -> scene. Throws UserError, which says where an option that is wrong was read.
+/// Options -> scene, with notes on where they come from. Throws UserError.
 PetscErrorCode ReadScene(const OptionSources &sources, SceneInput &input);
 
 /// To be called when PETSc has read all it will ever read before time stepping, after a first solve. An option that

@@ -159,7 +159,7 @@ REFUSALS = [
 ]
 
 # These take different ways through the program; they are repeated on two processes.
-ON_TWO_PROCESSES = {"misspelt option", "misspelt solver option", "unknown solver", "blanks for commas", "NaN",
+ON_TWO_PROCESSES = {"misspelt option", "wrong value after a lone CR", "misspelt solver option", "unknown solver", "blanks for commas", "NaN",
                     "missing options file", "blanks for commas in a file", "output below a regular file", "existing run",
                     "stray word", "restart of a text", "mesh file that is none",
                     "more approach than the mesh file's height"}
