@@ -6,6 +6,7 @@
 #include "scene/help.hpp"
 #include "scene/option_table.hpp"
 #include "scene/output_directory.hpp"
+#include "scene/parse.hpp"
 #include "scene/petsc_options.hpp"
 #include "scene/report.hpp"
 #include "scene/stored_options.hpp"
@@ -70,6 +71,27 @@ PetscErrorCode ReportErrors(MPI_Comm comm, const SceneInput &input, const Serial
   PetscFunctionReturn(0);
 }
 
+/// Gels off the axis, or of a mesh file, that cannot stand on one another; what is odd about it becomes warnings.
+PetscErrorCode RefuseImpossibleStart(Problem &problem, SceneInput &input)
+{
+  std::string objection;
+  std::vector<std::string> doubts;
+  PetscFunctionBeginUser;
+  const auto &offset = input.scene.misalignment.offset;
+  const bool shifted = offset[0] != 0 || offset[1] != 0;
+  if (!shifted && input.mesh_file.empty()) PetscFunctionReturn(0);
+  PetscCall(problem.JudgeStart(objection, doubts));
+  const std::string option =
+      shifted ? "-top_offset = " + input.given.at("-top_offset") : "-mesh_file = " + input.mesh_file;
+  const std::string room = to_text(input.scene.bottom.radius - input.scene.top.radius);
+  for (const std::string &doubt : doubts) input.warnings.push_back(option + ": " + doubt);
+  if (!objection.empty())
+    throw UserError{option + ": before the gels are pressed, " + objection +
+                    " (beyond the bottom gel's edge); allowed: a top gel whose face lies above the bottom gel's" +
+                    (input.scene.round ? ", here an offset of up to " + room + " mm" : "")};
+  PetscFunctionReturn(0);
+}
+
 /// Options -> scene -> mesh, bulk, contact -> TS -> observers -> files.
 PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
 {
@@ -103,6 +125,7 @@ PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
   }
   PetscCall(problem.SetUp(comm, input.scene, std::move(mesh)));
   PetscCall(problem.ProbeSolver());
+  PetscCall(RefuseImpossibleStart(problem, input));
   PetscCall(TakePetscHelp(petsc_help));
   if (help == HelpRequest::petsc) {
     status = answer(help_text() + "\nPETSc\n" + petsc_help);

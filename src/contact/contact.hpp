@@ -34,6 +34,13 @@ public:
   PetscErrorCode AddJacobian(const PlateFrames &frames, const double *U, const double *Udot, double shift, Mat A,
                              std::string &failure);
 
+  /// Where undeformed gels stand so: the share of the top one's face that hangs over the edge of the bottom one's, or
+  /// why they cannot. Collective.
+  PetscErrorCode AtRest(const PlateFrames &frames, double &share, std::string &failure)
+  {
+    return gels.front().AtRest(frames, share, failure);
+  }
+
   /// Finds the pairs of facets that meet at U and whether the matrix pattern covers them; if not, the next AddPattern
   /// does, with room for further sliding. Collective.
   PetscErrorCode UpdateCandidates(const PlateFrames &frames, const double *U, bool &covered);

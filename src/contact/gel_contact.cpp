@@ -1,6 +1,7 @@
 #include "contact/gel_contact.hpp"
 
 #include "contact/own_rows.hpp"
+#include "tribogel/scene/overhang.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +13,6 @@ namespace tribogel
 
 namespace
 {
-
-/// A slave facet that hangs over the master's edge presses on the master's extension; that is a good picture of a rim
-/// that only just overhangs, and of nothing else.
-constexpr double largest_overhang = 0.1; // of the slave's length or area
 
 /// Sliding that a matrix pattern allows for, in facets. A whole facet makes the condensed matrix in space (solve/) a
 /// fifth larger and MUMPS 7 % slower than half a one; a quarter rebuilds the pattern more often and gains nothing.
@@ -117,6 +114,17 @@ void GelContact::Unpack(const PlateFrames &frames, const std::vector<double> &va
   state.master.rotation = frames.bottom_rotation;
 }
 
+PetscErrorCode GelContact::AtRest(const PlateFrames &frames, double &share, std::string &failure)
+{
+  ContactState<double> state;
+  const std::vector<double> zero(9 * (slave.node.size() + mesh->master.node.size()), 0.0);
+  PetscFunctionBeginUser;
+  Unpack(frames, zero, 1, state);
+  PetscCall(Evaluate(state, false, failure));
+  share = overhang / model->slave_size();
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode GelContact::Gather(const PlateFrames &frames, const double *U, const double *Udot, double shift,
                                   ContactState<double> &state) const
 {
@@ -155,7 +163,8 @@ PetscErrorCode GelContact::Evaluate(const ContactState<double> &state, bool deri
   if (failure.empty() && overhang > largest_overhang * model->slave_size()) {
     std::ostringstream text;
     text << "the top gel hangs over the edge of the bottom gel by " << overhang << (mesh->dim == 2 ? " mm" : " mm^2")
-         << ", more than " << 100 * largest_overhang << " % of its face";
+         << ", " << 100 * overhang / model->slave_size() << " % of its face (at most " << 100 * largest_overhang
+         << " % may)";
     failure = text.str();
   }
   PetscFunctionReturn(0);

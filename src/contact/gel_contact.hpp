@@ -41,6 +41,10 @@ public:
   PetscErrorCode AddJacobian(const PlateFrames &frames, const double *U, const double *Udot, double shift, Mat A,
                              std::string &failure);
 
+  /// Where undeformed gels stand so: the share of the slave that hangs over the master's edge, or why they cannot.
+  /// Collective.
+  PetscErrorCode AtRest(const PlateFrames &frames, double &share, std::string &failure);
+
   /// Finds the pairs of facets that meet at U and whether the matrix pattern covers them; if not, the next AddPattern
   /// does, with room for further sliding. Collective.
   PetscErrorCode UpdateCandidates(const PlateFrames &frames, const double *U, bool &covered);

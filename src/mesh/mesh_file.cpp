@@ -13,6 +13,7 @@
 #include <fstream>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 namespace tribogel
 {
@@ -41,6 +42,24 @@ std::array<Place, 9> nodes_of(const SerialMesh &mesh, const std::array<int, 4> &
 
 struct Extent {
   double low = std::numeric_limits<double>::infinity(), high = -low, area = 0;
+  std::array<double, 2> moment{};                ///< integral of x, y
+  std::vector<std::array<double, 2>> nodes = {}; ///< x, y
+
+  std::array<double, 2> centroid() const { return {moment[0] / area, moment[1] / area}; }
+
+  /// Whether x = y = 0 lies in the nodes' convex hull: seen from there, no half plane is empty.
+  bool around_axis() const
+  {
+    std::vector<double> angles;
+    for (const auto &x : nodes) {
+      if (x[0] == 0 && x[1] == 0) return true;
+      angles.push_back(std::atan2(x[1], x[0]));
+    }
+    std::sort(angles.begin(), angles.end());
+    double widest = angles.front() + 2 * std::numbers::pi - angles.back();
+    for (std::size_t k = 1; k < angles.size(); ++k) widest = std::max(widest, angles[k] - angles[k - 1]);
+    return widest < std::numbers::pi * (1 + flat);
+  }
 };
 
 /// Heights, and whether the faces are where they have to be.
@@ -53,10 +72,14 @@ SpecimenSizes measure(const SerialMesh &mesh, bool has_top)
     const auto nodes = nodes_of(mesh, facet.vertex);
     std::vector<FaceSample> samples;
     add_samples(nodes, samples);
-    for (const FaceSample &sample : samples) side.area += sample.area;
+    for (const FaceSample &sample : samples) {
+      side.area += sample.area;
+      for (int i = 0; i < 2; ++i) side.moment[i] += sample.area * sample.X[i];
+    }
     for (const Place &X : nodes) {
       side.low = std::min(side.low, X[2]);
       side.high = std::max(side.high, X[2]);
+      side.nodes.push_back({X[0], X[1]});
     }
   }
   const auto of = [&](Side side) -> const Extent & { return extent[static_cast<int>(side)]; };
@@ -78,6 +101,8 @@ SpecimenSizes measure(const SerialMesh &mesh, bool has_top)
     throw UserError{"bottom_plate at z = " + to_text(lower.high) + " mm; allowed: z < 0, below the gel"};
   sizes.height[bottom_body] = -lower.low;
   sizes.radius[bottom_body] = std::sqrt(upper.area / std::numbers::pi);
+  sizes.centroid[bottom_body] = upper.centroid();
+  sizes.around_axis[bottom_body] = upper.around_axis();
   if (!has_top) return sizes;
   const Extent &slave = of(Side::slave);
   if (slave.low < -tolerance)
@@ -88,6 +113,9 @@ SpecimenSizes measure(const SerialMesh &mesh, bool has_top)
   sizes.gap = std::max(0.0, slave.low);
   sizes.height[top_body] = of(Side::top_plate).low - sizes.gap;
   sizes.radius[top_body] = std::sqrt(slave.area / std::numbers::pi);
+  sizes.centroid[top_body] = slave.centroid();
+  sizes.around_axis[top_body] = slave.around_axis();
+  sizes.unevenness = slave.high - slave.low + upper.high - upper.low;
   return sizes;
 }
 
@@ -139,9 +167,9 @@ PetscErrorCode MakeMesh(MPI_Comm comm, SceneInput &input, SerialMesh &mesh)
     PetscFunctionReturn(0);
   }
   PetscCall(OnFirstProcess(comm, [&] { return read_file(input, mesh, sizes); }));
-  std::vector<double> known{sizes.radius[0], sizes.radius[1], sizes.height[0], sizes.height[1], sizes.gap};
-  PetscCall(Broadcast(comm, known));
-  take_sizes(input, {{known[0], known[1]}, {known[2], known[3]}, known[4]});
+  static_assert(std::is_trivially_copyable_v<SpecimenSizes>);
+  PetscCallMPI(MPI_Bcast(&sizes, sizeof sizes, MPI_BYTE, 0, comm)); // the same program on all
+  take_sizes(input, sizes);
   mesh.dim = 3;
   PetscFunctionReturn(0);
 }

@@ -67,7 +67,10 @@ PetscErrorCode ExpectSameMesh(MPI_Comm comm, const StoredRun &stored, const std:
   PetscFunctionBeginUser;
   PetscCall(OnFirstProcess(comm, [&]() -> std::string {
     const auto before = stored.data.texts.find(mesh_name);
-    if (before != stored.data.texts.end() && before->second == digest) return {};
+    if (before == stored.data.texts.end())
+      return "-restart = " + stored.directory +
+             ": the checkpoint tells nothing of its mesh; allowed: one of this version";
+    if (before->second == digest) return {};
     return option + ": the mesh is not that of the run in " + stored.directory +
            " (other nodes, cells or groups, or in another order); allowed: to continue it, the same mesh";
   }));

@@ -3,6 +3,8 @@
 #include "scene/material_input.hpp"
 #include "scene/option_reader.hpp"
 #include "scene/parse.hpp"
+#include "scene/size_doubts.hpp"
+#include "tribogel/scene/overhang.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +35,14 @@ void read_geometry(const OptionReader &reader, Scene &scene)
   }
 }
 
+/// Three digits.
+std::string percent(double share)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g %%", 100 * share);
+  return text;
+}
+
 void read_misalignment(const OptionReader &reader, Scene &scene)
 {
   const Option &offset = OptionReader::declared("-top_offset"), &tilt = OptionReader::declared("-top_tilt");
@@ -47,9 +57,13 @@ void read_misalignment(const OptionReader &reader, Scene &scene)
   for (const Option *option : {&offset, &tilt})
     if (scene.model == Model::axisymmetric && scene.misalignment.any() && reader.is_given(option->name))
       refuse(option->name, reader.text(*option), "allowed: " + option->fallback + " with -model axisymmetric");
-  if (!(std::hypot(c[0], c[1]) < scene.bottom.radius))
+  const double beyond = disc_overhang(scene.top.radius, scene.bottom.radius, std::hypot(c[0], c[1]));
+  if (beyond > largest_overhang)
     refuse(offset.name, reader.text(offset),
-           "allowed: within the bottom specimen, here -bottom_radius = " + to_text(scene.bottom.radius));
+           percent(beyond) + " of the top gel's face lies beyond the bottom gel; allowed: at most " +
+               percent(largest_overhang) + ", here with -top_radius = " + to_text(scene.top.radius) +
+               " and -bottom_radius = " + to_text(scene.bottom.radius) + " (none up to an offset of " +
+               to_text(scene.bottom.radius - scene.top.radius) + " mm)");
 }
 
 /// -mesh_file, if it is given, in place of all that describes cylinders and their meshes.
@@ -357,6 +371,8 @@ void take_sizes(SceneInput &input, const SpecimenSizes &sizes)
     take("initial_gap", sizes.gap, scene.initial_gap);
   }
   check_approach(input);
+  judge_sizes(input);
+  judge_faces(input, sizes);
 }
 
 SceneInput scene_from_options(const GivenOptions &given)
@@ -381,6 +397,7 @@ SceneInput scene_from_options(const GivenOptions &given)
   read_discretisation(reader, input);
   read_output(reader, input);
   warn_about_relaxation(scene, input);
+  if (input.mesh_file.empty()) judge_sizes(input);
   if (!scene.has_top) note_idle_without_top(given, input);
   resolve_the_rest(reader, input);
   return input;

@@ -27,7 +27,7 @@ PetscErrorCode Problem::SetUp(MPI_Comm comm, const Scene &given, SerialMesh seri
   PetscCall(PetscLogEventBegin(events.mesh, 0, 0, 0, 0));
   PetscCall(mesh.Build(comm, scene, serial));
   PetscCall(PetscLogEventEnd(events.mesh, 0, 0, 0, 0));
-  face = scene.round ? ContactFace(scene.top.radius) : contact_face(mesh, mesh.slave);
+  if (scene.even_faces) face = scene.round ? ContactFace(scene.top.radius) : contact_face(mesh, mesh.slave);
   PetscCall(Bulk::Create(mesh, scene, bulk));
   if (scene.has_top || scene.plate_contact) {
     contact = std::make_unique<Contact>();

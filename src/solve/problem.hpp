@@ -81,6 +81,10 @@ public:
   /// One linear solve with a zero right-hand side: makes PETSc's inner solvers read their options.
   PetscErrorCode ProbeSolver();
 
+  /// Whether the gels can stand on one another before anything deforms: `objection`, empty if nothing speaks against
+  /// it, is why not; `doubts` gets what else is odd, also at angles that the schedule leads to. Collective.
+  PetscErrorCode JudgeStart(std::string &objection, std::vector<std::string> &doubts);
+
   /// Run the schedule from the state on, which may be in the midst of a phase. `completed` is false when a step fails
   /// at the smallest size or an observer cannot do its work, `why` then says where and why; or when an observer has
   /// asked for a stop, `why` is its request.

@@ -118,6 +118,8 @@ REFUSALS = [
     ("offset of one number", ["-model", "solid", "-top_offset", "1"], ["-top_offset = 1"]),
     ("offset beyond the bottom gel", ["-model", "solid", "-top_offset", "9,9"], ["-top_offset = 9,9",
                                                                                   "-bottom_radius = 12.5"]),
+    ("offset over the edge", ["-model", "solid", "-top_offset", "0,5"],
+     ["-top_offset = 0,5", "% of the top gel's face lies beyond the bottom gel", "at most 10 %", "offset of 2.5 mm"]),
     ("tilt in the half plane", ["-top_tilt", "0.01"], ["-top_tilt = 0.01", "0 with -model axisymmetric"]),
     ("tilt in degrees", ["-model", "solid", "-top_tilt", "2"], ["-top_tilt = 2"]),
     ("steady state of an offset gel", ["-model", "solid", "-top_offset", "1,0", "-schedule_kind", "steady"],
@@ -139,7 +141,8 @@ REFUSALS = [
     ("mesh file of tetrahedra", SOLID + ["-mesh_file", "tetrahedra.msh"],
      ["-mesh_file = tetrahedra.msh: line ", "type 4 (tetrahedron)", "hexahedra"]),
     ("mesh file without a group", SOLID + ["-mesh_file", "nameless.msh"],
-     ["-mesh_file = nameless.msh: no physical surface 'top_contact'"]),
+     ["-mesh_file = nameless.msh: no physical surface 'top_contact'; there is a surface 'Top contact': names are taken to "
+      "the letter; the file has volumes 'top', 'bottom' and surfaces 'top_plate', "]),
     ("mesh file with an inner face", SOLID + ["-mesh_file", "inner.msh"],
      ["-mesh_file = inner.msh: element ", "of top_contact is not on the boundary of top"]),
     ("mesh file with an inclined plate", SOLID + ["-mesh_file", "inclined.msh"],
@@ -148,6 +151,10 @@ REFUSALS = [
      ["-mesh_file = low.msh: bottom_contact has its highest point at z = -1 mm", "z = 0"]),
     ("mesh file of overlapping gels", SOLID + ["-mesh_file", "overlapping.msh"],
      ["-mesh_file = overlapping.msh: top_contact has its lowest point at z = -0.5 mm", "z >= 0"]),
+    ("mesh file of a gel over the edge", SOLID + ["-mesh_file", "over_the_edge.msh"],
+     ["-mesh_file = over_the_edge.msh: before the gels are pressed, ", "above the bottom gel's"]),
+    ("mesh file of a gel over the edge by the offset", SOLID + ["-mesh_file", "good.msh", "-top_offset", "12,0"],
+     ["-top_offset = 12,0: before the gels are pressed, "]),
     ("mesh file of two gels for one", SOLID + ["-mesh_file", "good.msh", "-specimens", "bottom"],
      ["-mesh_file = good.msh: element ", "of top_plate is not on the boundary of bottom"]),
     ("more approach than the mesh file's height", SOLID + ["-mesh_file", "good.msh", "-schedule_approach", "9,9,9,9,9"],
@@ -185,6 +192,13 @@ RUNS = [
     ("time rule of PETSc that is ours", ["-ts_exact_final_time", "matchstep", "-ts_adapt_type", "dsp", "-snes_type", "newtontr"]
      + SMALL, ["complete; files in"]),
     ("help of PETSc beside a run", ["-help", "petsc", "-output_directory", "a_run"], ["-snes_max_it", "-friction_law"]),
+    ("mesh file in micrometres", SOLID + ["-mesh_file", "micrometres.msh"] + BRIEF,
+     ["warning: -mesh_file = micrometres.msh stands for -top_radius = 1e+04 mm, -top_height = 4400 mm, -bottom_radius = ",
+      "micrometres?"]),
+    ("mesh file beside the axis", SOLID + ["-mesh_file", "beside.msh"] + BRIEF,
+     ["warning: -mesh_file = beside.msh: the plates' axis x = y = 0 lies outside of top_contact, which has its centroid at "
+      "(30, 40) mm"]),
+    ("gel in micrometres", ["-bottom_radius", "10000"] + SMALL, ["warning: -bottom_radius = 1e+04 mm: lengths are in mm"]),
     ("help", ["-help"], ["-friction_coefficients", "default: 0,8e-4", "MPa s"]),
     ("version", ["-version"], ["tribogel "]),
 ]
@@ -226,17 +240,22 @@ def meshes():
     good = made.stdout
     head, tail = good.index("$Nodes\n54\n") + 10, good.index("$EndNodes")
 
-    def moved(lift):
-        """With `lift` of a node's number added to its z."""
+    def moved(where):
+        """With `where` of a node's number and place."""
         nodes = [line.split() for line in good[head:tail].splitlines()]
-        return good[:head] + "".join(f"{n} {x} {y} {float(z) + lift(int(n))}\n" for n, x, y, z in nodes) + good[tail:]
+        places = [(n, where(int(n), float(x), float(y), float(z))) for n, x, y, z in nodes]
+        return good[:head] + "".join(f"{n} {x} {y} {z}\n" for n, (x, y, z) in places) + good[tail:]
 
     contact = re.search(" 3 2 5 5( .*)", good).group()  # the first face of top_contact
     inner = " 3 2 5 5 " + " ".join(str(int(node) + 9) for node in contact.split()[4:])
-    return {"good": good, "nameless": good.replace('"top_contact"', '"contact"'),
+    return {"good": good, "nameless": good.replace('"top_contact"', '"Top contact"'),
             "tetrahedra": good.replace(" 5 2 1 1 ", " 4 2 1 1 ", 1), "inner": good.replace(contact, inner),
-            "inclined": moved(lambda n: -0.1 if n == 1 else 0), "low": moved(lambda n: -1 if n < 28 else 0),
-            "overlapping": moved(lambda n: -0.5 if n > 27 else 0)}
+            "inclined": moved(lambda n, x, y, z: (x, y, z - 0.1 if n == 1 else z)),
+            "low": moved(lambda n, x, y, z: (x, y, z - 1 if n < 28 else z)),
+            "overlapping": moved(lambda n, x, y, z: (x, y, z - 0.5 if n > 27 else z)),
+            "over_the_edge": moved(lambda n, x, y, z: (x + 12 if n > 27 else x, y, z)),
+            "beside": moved(lambda n, x, y, z: (x + 30, y + 40, z)),
+            "micrometres": moved(lambda n, x, y, z: (1000 * x, 1000 * y, 1000 * z))}
 
 
 def judge_refusal(command, expected):

@@ -7,19 +7,31 @@
 namespace tribogel::test
 {
 
+namespace
+{
+
+/// Turned by 0.02 rad, a fiftieth of the edge at the far corner.
+Scene turned_cubes(int order)
+{
+  Scene scene = paper_scene(1, order);
+  scene.model = Model::solid;
+  scene.round = false;
+  scene.plate_contact = false;
+  scene.top.radius = scene.bottom.radius = std::sqrt(1 / std::numbers::pi);
+  scene.top.height = scene.bottom.height = 1;
+  scene.top.material = scene.bottom.material = hyperelastic_gel();
+  scene.friction = {{0.1}, {0}};
+  scene.schedule = schedule_from_twists({1, 2}, {0.05, 0.05}, {0, 0.02});
+  return scene;
+}
+
+} // namespace
+
 TEST(mesh_face, WeighsTheTorqueByItsOwnMoments)
 {
   const SolverOptions options(fixed_steps(0.5, 1e-9));
   for (const int order : {1, 2}) {
-    Scene scene = paper_scene(1, order);
-    scene.model = Model::solid;
-    scene.round = false;
-    scene.plate_contact = false;
-    scene.top.radius = scene.bottom.radius = std::sqrt(1 / std::numbers::pi);
-    scene.top.height = scene.bottom.height = 1;
-    scene.top.material = scene.bottom.material = hyperelastic_gel();
-    scene.friction = {{0.1}, {0}};
-    scene.schedule = schedule_from_twists({1, 2}, {0.05, 0.05}, {0, 0.02});
+    const Scene scene = turned_cubes(order);
     Problem problem;
     Recorder recorder("");
     bool completed = false;
@@ -33,6 +45,37 @@ TEST(mesh_face, WeighsTheTorqueByItsOwnMoments)
     EXPECT_NEAR(m.mu_apparent * r * m.normal_force / m.torque, 1, 1e-4); // four Gauss points along each edge
     EXPECT_NEAR(m.mu_gong * (2.0 / 3) / r * m.normal_force / m.torque, 1, 1e-4);
   }
+}
+
+/// A square on an equal one hangs over its edge as soon as it turns about the corner: by 0.02 rad with 1 % of its area,
+/// by 0.3 rad with more than the 10 % that end a run.
+TEST(mesh_face, IsKnownToHangOverTheEdgeBeforeItTurns)
+{
+  for (const double angle : {0.02, 0.3, -0.3}) {
+    Scene scene = turned_cubes(1);
+    scene.schedule = schedule_from_twists({1, 2}, {0.05, 0.05}, {0, angle});
+    Problem problem;
+    std::string objection;
+    std::vector<std::string> doubts;
+    ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, scene, cubes()), 0);
+    ASSERT_EQ(problem.JudgeStart(objection, doubts), 0);
+    EXPECT_EQ(objection, "");
+    ASSERT_EQ(doubts.size(), angle == 0.02 ? 0 : 1);
+    for (const std::string &doubt : doubts) EXPECT_EQ(doubt.find("when the top plate has turned by "), 0) << doubt;
+  }
+  Scene scene = turned_cubes(1);
+  scene.misalignment.offset = {0.05, 0};
+  Problem problem;
+  std::string objection;
+  std::vector<std::string> doubts;
+  ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, scene, cubes()), 0);
+  ASSERT_EQ(problem.JudgeStart(objection, doubts), 0);
+  EXPECT_EQ(objection, "");
+  ASSERT_EQ(doubts.size(), 1);
+  EXPECT_EQ(doubts[0].find("the top gel hangs over the edge of the bottom gel with about "), 0) << doubts[0];
+  double share = 0;
+  ASSERT_EQ(problem.contact->AtRest(problem.frames(0, 0), share, objection), 0);
+  EXPECT_NEAR(share, 0.05, 0.01); // Gauss points beyond the edge
 }
 
 } // namespace tribogel::test

@@ -97,7 +97,8 @@ struct Scene {
   PlateBond plate_bond = PlateBond::glued;
   double initial_gap = 0; ///< between the gels before contact, to the lowest point of a tilted one [mm]
   Misalignment misalignment;
-  bool round = true; ///< the specimens are of revolution; false: of a mesh file
+  bool round = true;      ///< the specimens are of revolution; false: of a mesh file
+  bool even_faces = true; ///< they touch as a whole when pressed; false: what assumes that is undefined
   /// The side walls may touch the plates, and the top gel's wall may roll onto the bottom gel; else they meet nothing.
   bool plate_contact = true;
   ContactIntegration contact_integration = ContactIntegration::segments;
