@@ -115,6 +115,10 @@ REFUSALS = [
     ("pressure floor", ["-friction_pressure_floor", "0"], ["-friction_pressure_floor = 0", "> 0"]),
     ("gap in the branches", ["-top_maxwell3_viscosities", "4,5"], ["-top_maxwell3_viscosities = 4,5"]),
     ("incomplete branch", ["-top_maxwell2_viscosities", "4,5"], ["-top_maxwell2_ogden_moduli"]),
+    ("cells whose volume is no number", ["-model", "solid", "-elements_radial", "3", "-mesh_grading", "5"] +
+     [word for size in ("top_radius", "top_height", "bottom_radius", "bottom_height") for word in ("-" + size, "1e-110")] +
+     ["-schedule_approach", ",".join(5 * ["1e-120"])],
+     ["error: the mesh has a degenerate cell at x = "]),  # and not "-help = -mesh_grading: "
     ("mesh file that is not there", SOLID + ["-mesh_file", "no/such.msh"],
      ["-mesh_file = no/such.msh", "does not exist", "working directory"]),
     ("mesh file that is a directory", SOLID + ["-mesh_file", "a_run"], ["-mesh_file = a_run", "no regular file"]),
@@ -132,6 +136,10 @@ REFUSALS = [
      ["-mesh_file = low.msh: bottom_contact has its highest point at z = -1 mm", "z = 0"]),
     ("mesh file of overlapping gels", SOLID + ["-mesh_file", "overlapping.msh"],
      ["-mesh_file = overlapping.msh: top_contact has its lowest point at z = -0.5 mm", "z >= 0"]),
+    ("mesh file of parts that are not joined", SOLID + ["-mesh_file", "apart.msh"],
+     ["-mesh_file = apart.msh: faces of bottom lie on other faces of it", "(8, e.g. that of element"]),
+    ("mesh file without a contact face", SOLID + ["-mesh_file", "lacking.msh"],
+     ["-mesh_file = lacking.msh: top_contact lacks faces of top: 78.54 mm^2, 25 %"]),  # of 100 pi
     ("mesh file of two gels for one", SOLID + ["-mesh_file", "good.msh", "-specimens", "bottom"],
      ["-mesh_file = good.msh: element ", "of top_plate is not on the boundary of bottom"]),
     ("more approach than the mesh file's height", SOLID + ["-mesh_file", "good.msh", "-schedule_approach", "9,9,9,9,9"],
@@ -146,7 +154,7 @@ REFUSALS = [
 ON_TWO_PROCESSES = {"misspelt option", "misspelt solver option", "unknown solver", "blanks for commas", "NaN",
                     "missing options file", "blanks for commas in a file", "output below a regular file", "existing run",
                     "stray word", "restart of a text", "mesh file that is none",
-                    "more approach than the mesh file's height"}
+                    "more approach than the mesh file's height", "mesh file without a contact face"}
 
 # name, words, exit status 0 and this on stdout
 RUNS = [
@@ -159,6 +167,8 @@ RUNS = [
      ["note: without effect with -bottom_material hyperelastic: -bottom_maxwell_bulk_modulus"]),
     ("existing run, to be replaced", ["-output_directory", "a_run", "-overwrite"] + SMALL, ["a_run"]),
     ("unused solver option in a file", ["-options_file", "unused.opts"] + SMALL, ["warning: -pc_hypre_type"]),
+    ("mesh file with a face that is meant to be free", SOLID + ["-mesh_file", "free.msh"] + BRIEF,
+     ["warning: -mesh_file = free.msh: top_contact lacks faces of top: 78.54 mm^2, 25 %", "'free'"]),
     ("mesh file with sizes", SOLID + ["-mesh_file", "good.msh", "-top_radius", "3", "-mesh_grading", "9"] + BRIEF,
      ["note: without effect with -mesh_file: -top_radius, -mesh_grading", "mesh of good.msh"]),
     ("help", ["-help"], ["-friction_coefficients", "default: 0,8e-4", "MPa s"]),
@@ -202,11 +212,22 @@ def meshes():
         nodes = [line.split() for line in good[head:tail].splitlines()]
         return good[:head] + "".join(f"{n} {x} {y} {float(z) + lift(int(n))}\n" for n, x, y, z in nodes) + good[tail:]
 
+    def apart():
+        """The upper layer of the bottom specimen on nodes 55 to 63 in place of 10 to 18."""
+        layer = [line.split() for line in good[head:tail].splitlines()[9:18]]
+        copies = "".join(f"{int(n) + 45} {x} {y} {z}\n" for n, x, y, z in layer)
+        text = good[:tail].replace("$Nodes\n54\n", "$Nodes\n63\n") + copies + good[tail:]
+        return re.sub(r"( 5 2 2 2) (1\d) (1\d) (1\d) (1\d)", lambda found: found.group(1) + "".join(
+            f" {int(node) + 45}" for node in found.groups()[1:]), text)
+
     contact = re.search(" 3 2 5 5( .*)", good).group()  # the first face of top_contact
+    free = good.replace(contact, contact.replace(" 5 5", " 7 7"))
     inner = " 3 2 5 5 " + " ".join(str(int(node) + 9) for node in contact.split()[4:])
     return {"good": good, "nameless": good.replace('"top_contact"', '"contact"'),
             "tetrahedra": good.replace(" 5 2 1 1 ", " 4 2 1 1 ", 1), "inner": good.replace(contact, inner),
             "inclined": moved(lambda n: -0.1 if n == 1 else 0), "low": moved(lambda n: -1 if n < 28 else 0),
+            "apart": apart(), "lacking": free,
+            "free": free.replace("$PhysicalNames\n6\n", '$PhysicalNames\n7\n2 7 "free"\n'),
             "overlapping": moved(lambda n: -0.5 if n > 27 else 0)}
 
 
