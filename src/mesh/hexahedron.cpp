@@ -176,8 +176,8 @@ std::string place_of_middle(const std::array<Place, 27> &node, int k)
          (k < 20   ? "an edge"
           : k < 26 ? "a face"
                    : "the cell") +
-         " at " + in_words(node[k]) + ", " + rounded(distance(node[k], expected)) + " mm from " + in_words(expected) +
-         ", where its other nodes put it";
+         " at " + in_words(node[k]) + ", " + five_digits(distance(node[k], expected)) + " mm from " +
+         in_words(expected) + ", where its other nodes put it";
 }
 
 } // namespace
@@ -237,11 +237,11 @@ std::string in_words(const Place &X)
   for (const double x : X) size = std::max(size, std::abs(x));
   std::string text;
   for (const double x : X)
-    text += (text.empty() ? "(" : ", ") + rounded(std::abs(x) < 1e-9 * size ? 0 : x); // round-off
+    text += (text.empty() ? "(" : ", ") + five_digits(std::abs(x) < 1e-9 * size ? 0 : x); // round-off
   return text + ")";
 }
 
-std::string rounded(double value)
+std::string five_digits(double value)
 {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%.5g", value + 0.); // no -0

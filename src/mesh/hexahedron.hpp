@@ -33,8 +33,8 @@ bool is_left_handed(const std::array<Place, 27> &node);
 /// Why elements of this order cannot be made of it; empty if they can. Complete but for its subject, "element 7 ".
 std::string fault_of(const std::array<Place, 27> &node, std::size_t given, int order);
 
-/// For messages: to five digits, as a file has them at least.
-std::string rounded(double value);
+/// For messages.
+std::string five_digits(double value);
 std::string in_words(const Place &X);
 
 /// "40, e.g. " or nothing, before one of so many.

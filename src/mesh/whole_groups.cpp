@@ -202,8 +202,8 @@ private:
     for (const std::size_t f : faces) area += length(normals[f]);
     for (std::size_t f = 0; f < bodies.outer.size(); ++f)
       if (bodies.outer[f].side == group.side) named += length(normals[f]);
-    return std::string(group.name) + " lacks faces of " + body_names[group.body] + ": " + rounded(area) + " mm^2, " +
-           rounded(std::round(1000 * area / (area + named)) / 10) + " % of the area with them (" +
+    return std::string(group.name) + " lacks faces of " + body_names[group.body] + ": " + five_digits(area) +
+           " mm^2, " + five_digits(std::round(1000 * area / (area + named)) / 10) + " % of the area with them (" +
            in_number(faces.size()) + example(bodies, bodies.outer[faces.front()]) + "),";
   }
 

@@ -133,6 +133,10 @@ REFUSALS = [
     ("pressure floor", ["-friction_pressure_floor", "0"], ["-friction_pressure_floor = 0", "> 0"]),
     ("gap in the branches", ["-top_maxwell3_viscosities", "4,5"], ["-top_maxwell3_viscosities = 4,5"]),
     ("incomplete branch", ["-top_maxwell2_viscosities", "4,5"], ["-top_maxwell2_ogden_moduli"]),
+    ("cells whose volume is no number", ["-model", "solid", "-elements_radial", "3", "-mesh_grading", "5"] +
+     [word for size in ("top_radius", "top_height", "bottom_radius", "bottom_height") for word in ("-" + size, "1e-110")] +
+     ["-schedule_approach", ",".join(5 * ["1e-120"])],
+     ["error: the mesh has a degenerate cell at x = "]),  # and not "-help = -mesh_grading: "
     ("mesh file that is not there", SOLID + ["-mesh_file", "no/such.msh"],
      ["-mesh_file = no/such.msh", "does not exist", "working directory"]),
     ("mesh file that is a directory", SOLID + ["-mesh_file", "a_run"], ["-mesh_file = a_run", "no regular file"]),
@@ -155,6 +159,10 @@ REFUSALS = [
      ["-mesh_file = over_the_edge.msh: before the gels are pressed, ", "above the bottom gel's"]),
     ("mesh file of a gel over the edge by the offset", SOLID + ["-mesh_file", "good.msh", "-top_offset", "12,0"],
      ["-top_offset = 12,0: before the gels are pressed, "]),
+    ("mesh file of parts that are not joined", SOLID + ["-mesh_file", "apart.msh"],
+     ["-mesh_file = apart.msh: faces of bottom lie on other faces of it", "(8, e.g. that of element"]),
+    ("mesh file without a contact face", SOLID + ["-mesh_file", "lacking.msh"],
+     ["-mesh_file = lacking.msh: top_contact lacks faces of top: 78.54 mm^2, 25 %"]),  # of 100 pi
     ("mesh file of two gels for one", SOLID + ["-mesh_file", "good.msh", "-specimens", "bottom"],
      ["-mesh_file = good.msh: element ", "of top_plate is not on the boundary of bottom"]),
     ("more approach than the mesh file's height", SOLID + ["-mesh_file", "good.msh", "-schedule_approach", "9,9,9,9,9"],
@@ -169,7 +177,7 @@ REFUSALS = [
 ON_TWO_PROCESSES = {"misspelt option", "wrong value after a lone CR", "misspelt solver option", "unknown solver", "blanks for commas", "NaN",
                     "missing options file", "blanks for commas in a file", "output below a regular file", "existing run",
                     "stray word", "restart of a text", "mesh file that is none",
-                    "more approach than the mesh file's height"}
+                    "more approach than the mesh file's height", "mesh file without a contact face"}
 
 # name, words, exit status 0 and this on stdout
 RUNS = [
@@ -182,6 +190,8 @@ RUNS = [
      ["note: without effect with -bottom_material hyperelastic: -bottom_maxwell_bulk_modulus"]),
     ("existing run, to be replaced", ["-output_directory", "a_run", "-overwrite"] + SMALL, ["a_run"]),
     ("unused solver option in a file", ["-options_file", "unused.opts"] + SMALL, ["warning: -pc_hypre_type"]),
+    ("mesh file with a face that is meant to be free", SOLID + ["-mesh_file", "free.msh"] + BRIEF,
+     ["warning: -mesh_file = free.msh: top_contact lacks faces of top: 78.54 mm^2, 25 %", "'free'"]),
     ("mesh file with sizes", SOLID + ["-mesh_file", "good.msh", "-top_radius", "3", "-mesh_grading", "9"] + BRIEF,
      ["note: without effect with -mesh_file: -top_radius, -mesh_grading", "mesh of good.msh"]),
     ("twists after the rates of a file", SMALL[:-2] + ["-options_file", "rates.opts", "-schedule_twists", "0.2"],
@@ -246,7 +256,16 @@ def meshes():
         places = [(n, where(int(n), float(x), float(y), float(z))) for n, x, y, z in nodes]
         return good[:head] + "".join(f"{n} {x} {y} {z}\n" for n, (x, y, z) in places) + good[tail:]
 
+    def apart():
+        """The upper layer of the bottom specimen on nodes 55 to 63 in place of 10 to 18."""
+        layer = [line.split() for line in good[head:tail].splitlines()[9:18]]
+        copies = "".join(f"{int(n) + 45} {x} {y} {z}\n" for n, x, y, z in layer)
+        text = good[:tail].replace("$Nodes\n54\n", "$Nodes\n63\n") + copies + good[tail:]
+        return re.sub(r"( 5 2 2 2) (1\d) (1\d) (1\d) (1\d)", lambda found: found.group(1) + "".join(
+            f" {int(node) + 45}" for node in found.groups()[1:]), text)
+
     contact = re.search(" 3 2 5 5( .*)", good).group()  # the first face of top_contact
+    free = good.replace(contact, contact.replace(" 5 5", " 7 7"))
     inner = " 3 2 5 5 " + " ".join(str(int(node) + 9) for node in contact.split()[4:])
     return {"good": good, "nameless": good.replace('"top_contact"', '"Top contact"'),
             "tetrahedra": good.replace(" 5 2 1 1 ", " 4 2 1 1 ", 1), "inner": good.replace(contact, inner),
@@ -255,7 +274,9 @@ def meshes():
             "overlapping": moved(lambda n, x, y, z: (x, y, z - 0.5 if n > 27 else z)),
             "over_the_edge": moved(lambda n, x, y, z: (x + 12 if n > 27 else x, y, z)),
             "beside": moved(lambda n, x, y, z: (x + 30, y + 40, z)),
-            "micrometres": moved(lambda n, x, y, z: (1000 * x, 1000 * y, 1000 * z))}
+            "micrometres": moved(lambda n, x, y, z: (1000 * x, 1000 * y, 1000 * z)),
+            "apart": apart(), "lacking": free,
+            "free": free.replace("$PhysicalNames\n6\n", '$PhysicalNames\n7\n2 7 "free"\n')}
 
 
 def judge_refusal(command, expected):
