@@ -14,31 +14,6 @@ namespace tribogel::test
 namespace
 {
 
-/// The same with one node where those of a body coincide.
-SerialMesh welded(SerialMesh mesh)
-{
-  std::map<std::pair<int, X>, int> first;
-  std::vector<int> of(mesh.vertex.size());
-  for (SerialMesh::Cell &cell : mesh.cell)
-    for (int &v : cell.vertex) v = of[v] = first.try_emplace({cell.body, mesh.vertex[v]}, v).first->second;
-  for (SerialMesh::Facet &facet : mesh.boundary)
-    for (int &v : facet.vertex) v = of[v];
-  std::vector<int> kept(mesh.vertex.size(), -1); // without the others
-  std::vector<X> vertex;
-  for (SerialMesh::Cell &cell : mesh.cell)
-    for (int &v : cell.vertex) {
-      if (kept[v] < 0) {
-        kept[v] = static_cast<int>(vertex.size());
-        vertex.push_back(mesh.vertex[v]);
-      }
-      v = kept[v];
-    }
-  for (SerialMesh::Facet &facet : mesh.boundary)
-    for (int &v : facet.vertex) v = kept[v];
-  mesh.vertex = vertex;
-  return mesh;
-}
-
 /// A box of the bottom body between these x and z, 6 mm wide along y.
 std::pair<int, Box> slab(double left, double right, double low, double high, int cells_along_y = 6)
 {
