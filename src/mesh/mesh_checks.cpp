@@ -216,8 +216,10 @@ void expect_apart(GmshBodies &bodies, const std::vector<Touch> &touches)
   }
   const auto text = [&](const std::vector<const OuterFace *> &faces) {
     const int body = mesh.cell[faces.front()->cell].body;
+    const auto count = std::count_if(faces.begin(), faces.end(),
+                                     [&](const OuterFace *face) { return mesh.cell[face->cell].body == body; });
     return std::string("faces of ") + body_names[body] + " in no contact surface lie on or in " + body_names[1 - body] +
-           " (" + in_number(faces.size()) + example(bodies, *faces.front()) +
+           " (" + in_number(static_cast<std::size_t>(count)) + example(bodies, *faces.front()) +
            "): the gels pass through each other there";
   };
   if (!nameless.empty())

@@ -97,6 +97,24 @@ TEST(mesh_middles, RefuseEdgesWithTwoMiddles)
                  {"element 2 has the middle of the face at (-2, ", "element 1 at (-1.95, -2.5, -1.5)"});
 }
 
+/// The elements of faces have middles too.
+TEST(mesh_middles, RefuseFacesWithOtherMiddles)
+{
+  const SerialMesh mesh = apart({lower, upper});
+  const std::string good = GmshWriter(mesh, true, 27).format_2();
+  expect_taken(judged(good, 2));
+  const auto face = good.find(" 10 2 3 7 "), end = good.find('\n', face);
+  for (int k = 0; k < 5; ++k) { // its nodes from the last one, which is the face's
+    std::string text = good;
+    std::size_t to = end;
+    for (int back = 0; back < k; ++back) to = text.rfind(' ', to - 1);
+    const std::size_t from = text.rfind(' ', to - 1);
+    text.replace(from, to - from, " 1");
+    expect_refused(judged(text, 2), {k == 0 ? "has the middle of the face at" : "has the middle of the edge from"});
+    expect_taken(judged(text, 1));
+  }
+}
+
 /// Three cells beside six on a curved face, where they share every other node: of order 1 the six are a little apart
 /// from the three, but their nodes between are on the middles of the three's edges.
 TEST(mesh_middles, RefuseNodesThatHangOnMiddles)
