@@ -53,33 +53,45 @@ bool is_in(const SerialMesh &mesh, const SerialMesh::Cell &cell, const Place &X)
   return xi.lpNorm<Eigen::Infinity>() <= 1;
 }
 
-/// Vertices of the body that lie on another one of it.
+/// Nodes on the boundary of the body that lie on another one of it. A corner on the middle of an edge hangs.
 void expect_single_nodes(const GmshBodies &bodies, int body)
 {
   const SerialMesh &mesh = bodies.mesh;
-  std::map<int, double> edge; // shortest one at the vertex
-  for (const OuterFace &face : bodies.outer)
-    if (mesh.cell[face.cell].body == body)
-      for (int v = 0; v < 4; ++v) {
-        const int a = face.around[v], b = face.around[(v + 1) % 4];
-        for (const int end : {a, b}) {
-          const auto at = edge.try_emplace(end, distance(mesh.vertex[a], mesh.vertex[b])).first;
-          at->second = std::min(at->second, distance(mesh.vertex[a], mesh.vertex[b]));
-        }
-      }
+  struct Known {
+    Place X;
+    double edge; ///< the shortest there
+  };
+  std::map<std::array<int, 8>, Known> nodes;
+  const auto add = [&](const std::vector<int> &vertices, const Place &X, double edge) {
+    Known &known = nodes.try_emplace(middle_key(vertices), Known{X, edge}).first->second;
+    known.edge = std::min(known.edge, edge);
+  };
+  for (const OuterFace &face : bodies.outer) {
+    if (mesh.cell[face.cell].body != body) continue;
+    for (int v = 0; v < 4; ++v) {
+      const int a = face.around[v], b = face.around[(v + 1) % 4];
+      const double edge = distance(mesh.vertex[a], mesh.vertex[b]);
+      for (const int end : {a, b}) add({end}, mesh.vertex[end], edge);
+      if (const auto middle = mesh.middle.find(middle_key({a, b})); middle != mesh.middle.end())
+        add({a, b}, middle->second, edge);
+    }
+  }
+  std::vector<const Known *> known;
   std::vector<std::pair<Box, int>> boxes;
-  for (const auto &[v, shortest] : edge)
-    boxes.emplace_back(Box(corner_at(mesh.vertex[v]), corner_at(mesh.vertex[v])), v);
+  for (const auto &[key, node] : nodes) {
+    boxes.emplace_back(Box(corner_at(node.X), corner_at(node.X)), static_cast<int>(known.size()));
+    known.push_back(&node);
+  }
   const quad_search::Tree tree(boxes);
   std::set<int> doubled;
-  for (auto [box, v] : boxes) {
-    quad_search::inflate(box, same_place * edge.at(v));
+  for (auto [box, k] : boxes) {
+    quad_search::inflate(box, same_place * known[k]->edge);
     for (auto it = tree.qbegin(boost::geometry::index::intersects(box)); it != tree.qend(); ++it)
-      if (it->second != v) doubled.insert({v, it->second});
+      if (it->second != k) doubled.insert({k, it->second});
   }
   if (!doubled.empty())
     throw UserError{std::string("nodes of ") + body_names[body] + " lie on other nodes of it (" +
-                    in_number(doubled.size()) + "that at " + in_words(mesh.vertex[*doubled.begin()]) +
+                    in_number(doubled.size()) + "that at " + in_words(known[*doubled.begin()]->X) +
                     "), so that its parts are not joined there" + how_to_join};
 }
 
@@ -204,8 +216,10 @@ void expect_apart(GmshBodies &bodies, const std::vector<Touch> &touches)
   }
   const auto text = [&](const std::vector<const OuterFace *> &faces) {
     const int body = mesh.cell[faces.front()->cell].body;
+    const auto count = std::count_if(faces.begin(), faces.end(),
+                                     [&](const OuterFace *face) { return mesh.cell[face->cell].body == body; });
     return std::string("faces of ") + body_names[body] + " in no contact surface lie on or in " + body_names[1 - body] +
-           " (" + in_number(faces.size()) + example(bodies, *faces.front()) +
+           " (" + in_number(static_cast<std::size_t>(count)) + example(bodies, *faces.front()) +
            "): the gels pass through each other there";
   };
   if (!nameless.empty())

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <sstream>
 
 namespace tribogel::test
@@ -35,6 +36,31 @@ inline SerialMesh apart(const std::vector<std::pair<int, Box>> &boxes)
       mesh.boundary.push_back(facet);
     }
   }
+  return mesh;
+}
+
+/// The same with one node where those of a body coincide.
+inline SerialMesh welded(SerialMesh mesh)
+{
+  std::map<std::pair<int, X>, int> first;
+  std::vector<int> of(mesh.vertex.size());
+  for (SerialMesh::Cell &cell : mesh.cell)
+    for (int &v : cell.vertex) v = of[v] = first.try_emplace({cell.body, mesh.vertex[v]}, v).first->second;
+  for (SerialMesh::Facet &facet : mesh.boundary)
+    for (int &v : facet.vertex) v = of[v];
+  std::vector<int> kept(mesh.vertex.size(), -1); // without the others
+  std::vector<X> vertex;
+  for (SerialMesh::Cell &cell : mesh.cell)
+    for (int &v : cell.vertex) {
+      if (kept[v] < 0) {
+        kept[v] = static_cast<int>(vertex.size());
+        vertex.push_back(mesh.vertex[v]);
+      }
+      v = kept[v];
+    }
+  for (SerialMesh::Facet &facet : mesh.boundary)
+    for (int &v : facet.vertex) v = kept[v];
+  mesh.vertex = vertex;
   return mesh;
 }
 

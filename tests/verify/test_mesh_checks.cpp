@@ -14,31 +14,6 @@ namespace tribogel::test
 namespace
 {
 
-/// The same with one node where those of a body coincide.
-SerialMesh welded(SerialMesh mesh)
-{
-  std::map<std::pair<int, X>, int> first;
-  std::vector<int> of(mesh.vertex.size());
-  for (SerialMesh::Cell &cell : mesh.cell)
-    for (int &v : cell.vertex) v = of[v] = first.try_emplace({cell.body, mesh.vertex[v]}, v).first->second;
-  for (SerialMesh::Facet &facet : mesh.boundary)
-    for (int &v : facet.vertex) v = of[v];
-  std::vector<int> kept(mesh.vertex.size(), -1); // without the others
-  std::vector<X> vertex;
-  for (SerialMesh::Cell &cell : mesh.cell)
-    for (int &v : cell.vertex) {
-      if (kept[v] < 0) {
-        kept[v] = static_cast<int>(vertex.size());
-        vertex.push_back(mesh.vertex[v]);
-      }
-      v = kept[v];
-    }
-  for (SerialMesh::Facet &facet : mesh.boundary)
-    for (int &v : facet.vertex) v = kept[v];
-  mesh.vertex = vertex;
-  return mesh;
-}
-
 /// A box of the bottom body between these x and z, 6 mm wide along y.
 std::pair<int, Box> slab(double left, double right, double low, double high, int cells_along_y = 6)
 {
@@ -158,6 +133,9 @@ TEST(mesh_checks, WarnOfPartsThatBearNothing)
   const std::pair<int, Box> block{
       bottom_body, {{even(2, 3, 1), even(0, 1, 1), even(-2, -1, 1)}, {none, none, none, none, Side::bottom_plate}}};
   expect_taken(judged(GmshWriter(apart({gel}), false, 8).format_2(), 1, 0.5, false));
+  const SerialMesh fewer = without(apart({gel}), Side::top_plate, [](const X &x) { return x[0] > 0; });
+  expect_refused(judged(GmshWriter(fewer, false, 8).format_2(), 1, 0.5, false),
+                 {"top_plate lacks faces of bottom: 2 mm^2, 50 %"});
   expect_warned(judged(GmshWriter(apart({gel, block}), false, 8).format_2(), 1, 0.5, false),
                 {"cells are joined to one plate only and bear nothing (element 9 at (2.5, 0.5, -1.5))"});
 }
@@ -230,14 +208,18 @@ TEST(mesh_checks, TakeALensOfWhichSomeIsContact)
                  {"top_contact lacks faces of top", "(4, e.g."});
 }
 
-/// A tub with the top gel in it: their walls touch, and nobody says so.
+/// A tub with the top gel in it: a wall of each touches the other's, and nobody says so.
 TEST(mesh_checks, RefuseWallsThatTouch)
 {
-  const std::pair<int, Box> wall{bottom_body, {{even(2, 3, 1), even(-3, 3, 6), even(0, 1, 1)}, {}}};
-  SerialMesh tub = welded(apart({lower, wall, upper}));
-  tub = without(tub, Side::master, [](const X &x) { return x[0] > 2; });
-  const Verdict verdict = judged(tub);
-  expect_refused(verdict, {"in no contact surface lie on or in"});
+  std::pair<int, Box> side{bottom_body, {{even(2, 3, 1), even(-3, 3, 6), even(0, 1, 1)}, {Side::master}}}, gel = upper;
+  gel.second.sides[1] = Side::slave;
+  SerialMesh tub = welded(apart({lower, side, gel}));
+  tub = without(tub, Side::master, [](const X &x) { return x[0] > 2; }); // below the side
+  const auto wall = [](const X &x) { return x[0] == 2; };
+  const SerialMesh silent = without(without(tub, Side::master, wall), Side::slave, wall);
+  EXPECT_EQ(judged(tub).refusal, "");
+  expect_refused(judged(silent), {"faces of bottom in no contact surface lie on or in top (4, e.g. that of element"});
+  expect_warned(judged(with_group(tub, silent, "free")), {"in no contact surface lie on or in"});
 }
 
 } // namespace tribogel::test

@@ -22,12 +22,13 @@ std::string with_middles(const SerialMesh &mesh, int nodes, const std::function<
   int tag = 0;
   for (const SerialMesh::Cell &cell : mesh.cell) {
     std::vector<X> given;
-    for (const int v : {0, 1, 3, 2, 4, 5, 7, 6}) given.push_back(mesh.vertex[cell.vertex[v]]);
+    for (const int v : gmsh_corner) given.push_back(mesh.vertex[cell.vertex[v]]);
     const auto whole = all_nodes(given);
     given.assign(whole.begin(), whole.begin() + nodes);
     change(++tag, given); // the middles of each cell are nodes of its own
+    for (int v = 0; v < 8; ++v) place[cell.vertex[gmsh_corner[v]]] = given[v];
     elements << tag << (nodes == 20 ? " 17" : " 12") << " 2 " << cell.body + 1 << " 7";
-    for (const int v : {0, 1, 3, 2, 4, 5, 7, 6}) elements << " " << cell.vertex[v] + 1;
+    for (const int v : gmsh_corner) elements << " " << cell.vertex[v] + 1;
     for (int k = 8; k < nodes; ++k) {
       place.push_back(given[k]);
       elements << " " << place.size();
@@ -94,6 +95,41 @@ TEST(mesh_middles, RefuseEdgesWithTwoMiddles)
   };
   expect_refused(judged(with_middles(mesh, 27, face), 2),
                  {"element 2 has the middle of the face at (-2, ", "element 1 at (-1.95, -2.5, -1.5)"});
+}
+
+/// The elements of faces have middles too.
+TEST(mesh_middles, RefuseFacesWithOtherMiddles)
+{
+  const SerialMesh mesh = apart({lower, upper});
+  const std::string good = GmshWriter(mesh, true, 27).format_2();
+  expect_taken(judged(good, 2));
+  const auto face = good.find(" 10 2 3 7 "), end = good.find('\n', face);
+  for (int k = 0; k < 5; ++k) { // its nodes from the last one, which is the face's
+    std::string text = good;
+    std::size_t to = end;
+    for (int back = 0; back < k; ++back) to = text.rfind(' ', to - 1);
+    const std::size_t from = text.rfind(' ', to - 1);
+    text.replace(from, to - from, " 1");
+    expect_refused(judged(text, 2), {k == 0 ? "has the middle of the face at" : "has the middle of the edge from"});
+    expect_taken(judged(text, 1));
+  }
+}
+
+/// Three cells beside six on a curved face, where they share every other node: of order 1 the six are a little apart
+/// from the three, but their nodes between are on the middles of the three's edges.
+TEST(mesh_middles, RefuseNodesThatHangOnMiddles)
+{
+  const auto slab = [](double left, double right, int cells) {
+    return std::pair(bottom_body, Box{{even(left, right, 3), even(-3, 3, cells), even(-2, 0, 2)}, lower_sides});
+  };
+  const auto curved = [](const X &x) { return X{x[0] + 0.03 * (9 - x[1] * x[1]), x[1], x[2]}; };
+  const SerialMesh mesh = welded(apart({slab(-3, 0, 3), slab(0, 3, 6), upper}));
+  const std::string text = with_middles(mesh, 20, [&](int, std::vector<X> &node) {
+    for (X &x : node) x = curved(x);
+  });
+  expect_warned(judged(text, 1), {"parts that are not joined, or a slit"});
+  // on three heights of corners, three of the six edges' middles
+  expect_refused(judged(text, 2), {"nodes of bottom lie on other nodes of it (18, e.g."});
 }
 
 TEST(mesh_middles, RefuseMiddlesThatAreNotThere)
