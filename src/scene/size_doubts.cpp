@@ -22,9 +22,14 @@ std::string four_digits(double x)
   return text;
 }
 
-std::string in_brackets(const std::array<double, 2> &x)
+/// A place on a face of this radius; round-off is nothing.
+std::string in_brackets(const std::array<double, 2> &x, double radius)
 {
-  return "(" + four_digits(x[0]) + ", " + four_digits(x[1]) + ") mm";
+  const auto digits = [&](double value) {
+    constexpr double round_off = 1e-9;
+    return four_digits(std::abs(value) < round_off * radius ? 0 : value);
+  };
+  return "(" + digits(x[0]) + ", " + digits(x[1]) + ") mm";
 }
 
 } // namespace
@@ -61,11 +66,11 @@ void judge_faces(SceneInput &input, const SpecimenSizes &sizes)
     const auto &centroid = sizes.centroid[body];
     if (!sizes.around_axis[body])
       input.warnings.push_back(file + "the plates' axis x = y = 0 lies outside of " + name +
-                               ", which has its centroid at " + in_brackets(centroid) +
+                               ", which has its centroid at " + in_brackets(centroid, sizes.radius[body]) +
                                " and the area of a circle with the radius " + four_digits(sizes.radius[body]) +
                                " mm: turning carries the gel around the axis");
     else if (std::hypot(centroid[0], centroid[1]) > beside * sizes.radius[body])
-      input.notes.push_back(file + name + " has its centroid at " + in_brackets(centroid) +
+      input.notes.push_back(file + name + " has its centroid at " + in_brackets(centroid, sizes.radius[body]) +
                             ", beside the plates' axis x = y = 0");
   }
   double pressed = 0;
