@@ -15,16 +15,21 @@ namespace
 constexpr double smallest_radius = 0.2, smallest_height = 0.01, largest = 300; // mm
 
 /// Four digits.
-std::string number(double x)
+std::string four_digits(double x)
 {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", x);
   return text;
 }
 
-std::string place(const std::array<double, 2> &x)
+/// A place on a face of this radius; round-off is nothing.
+std::string in_brackets(const std::array<double, 2> &x, double radius)
 {
-  return "(" + number(x[0]) + ", " + number(x[1]) + ") mm";
+  const auto digits = [&](double value) {
+    constexpr double round_off = 1e-9;
+    return four_digits(std::abs(value) < round_off * radius ? 0 : value);
+  };
+  return "(" + digits(x[0]) + ", " + digits(x[1]) + ") mm";
 }
 
 } // namespace
@@ -36,7 +41,7 @@ void judge_sizes(SceneInput &input)
   bool large = false;
   const auto judge = [&](const std::string &name, double size, double smallest) {
     if (smallest <= size && size <= largest) return;
-    odd += (odd.empty() ? "" : ", ") + name + " = " + number(size) + " mm";
+    odd += (odd.empty() ? "" : ", ") + name + " = " + four_digits(size) + " mm";
     large = size > largest;
   };
   const auto judge_both = [&](const std::string &body, const Specimen &specimen) {
@@ -61,11 +66,11 @@ void judge_faces(SceneInput &input, const SpecimenSizes &sizes)
     const auto &centroid = sizes.centroid[body];
     if (!sizes.around_axis[body])
       input.warnings.push_back(file + "the plates' axis x = y = 0 lies outside of " + name +
-                               ", which has its centroid at " + place(centroid) +
-                               " and the area of a circle with the radius " + number(sizes.radius[body]) +
+                               ", which has its centroid at " + in_brackets(centroid, sizes.radius[body]) +
+                               " and the area of a circle with the radius " + four_digits(sizes.radius[body]) +
                                " mm: turning carries the gel around the axis");
     else if (std::hypot(centroid[0], centroid[1]) > beside * sizes.radius[body])
-      input.notes.push_back(file + name + " has its centroid at " + place(centroid) +
+      input.notes.push_back(file + name + " has its centroid at " + in_brackets(centroid, sizes.radius[body]) +
                             ", beside the plates' axis x = y = 0");
   }
   double pressed = 0;
@@ -73,8 +78,8 @@ void judge_faces(SceneInput &input, const SpecimenSizes &sizes)
   if (!scene.has_top || pressed == 0 || sizes.unevenness <= pressed) return;
   scene.even_faces = false;
   input.notes.push_back(
-      file + "the contact faces are uneven by " + number(sizes.unevenness) + " mm and pressed together by " +
-      number(pressed) +
+      file + "the contact faces are uneven by " + four_digits(sizes.unevenness) + " mm and pressed together by " +
+      four_digits(pressed) +
       " mm, so that they touch in part; mu_apparent and mu_gong, which take all of the face as evenly "
       "pressed, are nan");
 }

@@ -1,7 +1,7 @@
 /// What rheologists read from a torque: closed forms that assume a planar contact, the sliding speed omega r, and
-/// uniform pressure. Section 2 of the paper assumes more, a traction proportional to the speed; section 3.3 a polynomial
-/// law. They are undefined, and then NaN, without normal force. A coefficient is |traction| / pressure, so the torque's
-/// sign is ignored. Units mm, N, rad, s; torque N mm.
+/// uniform pressure. Section 2 of the paper assumes more, a traction proportional to the speed; section 3.3 a
+/// polynomial law. They are undefined, and then NaN, without normal force. A coefficient is |traction| / pressure, so
+/// the torque's sign is ignored. Units mm, N, rad, s; torque N mm.
 ///
 /// The paper's contact is a disc of radius R. Under the same assumptions tractions on a face of any shape stand across
 /// the radius, so that its integrals over the disc become means of powers of r over the face: with <f> the area mean,
