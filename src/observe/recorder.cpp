@@ -15,7 +15,9 @@ namespace
 {
 
 /// Of history.csv and profile.csv.
-constexpr const char *headers[] = {
+enum : std::size_t { history_file, profile_file };
+constexpr std::array files = {history_file, profile_file};
+constexpr std::array headers = {
     "time_s,phase,approach_mm,rotation_rad,rate_rad_per_s,normal_force_N,torque_Nmm,contact_radius_mm,mu_apparent,"
     "mu_gong,mu_mean,mu_area_weighted,mu_pressure_weighted,newton_iterations,linear_iterations,step_s,contact_force_N,"
     "contact_torque_Nmm,force_mismatch_N,torque_mismatch_Nmm,work_of_plates_Nmm,stored_energy_Nmm,"
@@ -131,8 +133,8 @@ std::array<std::string, 2> Recorder::paths() const
 /// New files, or those that are there without what was written after the last checkpoint. Returns what went wrong.
 std::string Recorder::open(bool goes_on)
 {
-  for (std::size_t k = 0; k < bytes.size(); ++k) {
-    GrowingFile &file = k == 0 ? history : profile;
+  for (const std::size_t k : files) {
+    GrowingFile &file = k == history_file ? history : profile;
     std::string failed = goes_on ? file.resume(paths()[k], bytes[k]) : file.create(paths()[k]);
     if (failed.empty() && !goes_on) failed = file.append(std::string(headers[k]) + "\n");
     if (!failed.empty()) return failed;
@@ -150,7 +152,7 @@ std::string Recorder::bring_to_disk()
 
 std::string Recorder::objection_to_resume() const
 {
-  for (std::size_t k = 0; k < bytes.size(); ++k) {
+  for (const std::size_t k : files) {
     std::error_code failed;
     const std::uintmax_t size = std::filesystem::file_size(paths()[k], failed);
     if (failed) return paths()[k] + ": " + failed.message();
