@@ -1,5 +1,6 @@
 #include "observe/measure.hpp"
 
+#include "tribogel/contact/axis_value.hpp"
 #include "tribogel/friction/rheometer.hpp"
 
 #include <algorithm>
@@ -96,10 +97,11 @@ const char *name_of(ContactStatus status)
   return status == ContactStatus::open ? "open" : status == ContactStatus::stick ? "stick" : "slip";
 }
 
-ProfileRow row_at(const char *surface, const SurfacePlace &place, double rotation)
+ProfileRow row_at(const char *surface, const char *part, const SurfacePlace &place, double rotation)
 {
   ProfileRow row{};
   row.surface = surface;
+  row.part = part;
   row.reference_r = place.reference[0];
   row.reference_theta = place.reference[1];
   row.reference_z = place.reference[2];
@@ -111,12 +113,31 @@ ProfileRow row_at(const char *surface, const SurfacePlace &place, double rotatio
   return row;
 }
 
-void tabulate(const Problem &problem, const SurfaceResults &surface, std::vector<ProfileRow> &profile)
+/// Where the nodes of a curve of order 2 that begins on the axis are; empty: it is none.
+std::vector<PlanePoint<double>> curve_from_axis(const Problem &problem, const std::vector<SurfacePlace> &places)
+{
+  std::vector<PlanePoint<double>> x;
+  if (problem.mesh.dim != 2 || problem.scene.mesh.element_order != 2 || places.front().reference[0] != 0) return x;
+  for (const SurfacePlace &place : places) x.push_back({place.current[0], place.current[2]});
+  return x;
+}
+
+/// On the axis nothing is tangential or slides; `next` to it are the two nodes that say what the pressure is there.
+void settle_on_axis(const std::vector<PlanePoint<double>> &x, const ProfileRow *next, ProfileRow &row)
+{
+  row.pressure = pressure_on_axis(x, {next[0].pressure, next[1].pressure});
+  row.status = name_of(row.pressure > 0 ? ContactStatus::stick : ContactStatus::open);
+  row.traction_radial = row.traction_circumferential = row.sliding_velocity = 0;
+  if (row.pressure > 0) row.mu = 0;
+}
+
+void tabulate(const Problem &problem, const SurfaceResults &surface, const char *part, std::vector<ProfileRow> &profile)
 {
   const double rotation = problem.phase().rotation(problem.state.time);
+  const std::size_t first = profile.size();
   for (std::size_t a = 0; a < surface.nodes.size(); ++a) {
     if (!surface.on_crease.empty() && surface.on_crease[a]) continue; // a node of the face
-    ProfileRow row = row_at("top", surface.slave[a], rotation);
+    ProfileRow row = row_at("top", part, surface.slave[a], rotation);
     const NodeResult &node = surface.nodes[a];
     if (node.carries) {
       row.pressure = node.pressure;
@@ -128,15 +149,23 @@ void tabulate(const Problem &problem, const SurfaceResults &surface, std::vector
     }
     profile.push_back(row);
   }
+  const auto curve = curve_from_axis(problem, surface.slave);
+  if (curve.empty()) return;
+  profile[first].z = height_on_axis(curve);
+  if (!surface.nodes.front().carries) settle_on_axis(curve, &profile[first + 1], profile[first]);
 }
 
 /// The top gel's lower face and the part of its wall that may roll, then the bottom gel's face; curves from the axis
 /// outwards and upwards.
 void tabulate(const Problem &problem, const std::vector<SurfaceResults> &surfaces, std::vector<ProfileRow> &profile)
 {
-  for (const SurfaceResults &surface : surfaces) tabulate(problem, surface, profile);
+  for (const SurfaceResults &surface : surfaces)
+    tabulate(problem, surface, &surface == &surfaces.front() ? "face" : "wall", profile);
   const double rotation = problem.scene.bottom_plate_rate * problem.state.time;
-  for (const SurfacePlace &place : surfaces.front().master) profile.push_back(row_at("bottom", place, rotation));
+  const std::vector<SurfacePlace> &master = surfaces.front().master;
+  const std::size_t first = profile.size();
+  for (const SurfacePlace &place : master) profile.push_back(row_at("bottom", "face", place, rotation));
+  if (const auto curve = curve_from_axis(problem, master); !curve.empty()) profile[first].z = height_on_axis(curve);
 }
 
 } // namespace

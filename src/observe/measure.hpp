@@ -29,15 +29,18 @@ struct Measurement {
   double torque_mismatch() const { return torque - contact_torque; }
 };
 
-/// One node of a contact surface at a phase's end: r about the axis of its own plate, theta in space.
+/// One node of a contact surface at a phase's end: r about the axis of its own plate, theta in space. On the axis of a
+/// curve of order 2, whose node there takes no part in the contact, z and the pressure are those of the parabola
+/// through the two nodes next to it (contact/axis_value.hpp).
 struct ProfileRow {
-  const char *surface;
+  const char *surface;                                                                            ///< top or bottom
   double reference_r, reference_theta, reference_z;                                               ///< [mm], [rad]
   double r, theta, z;                                                                             ///< [mm], [rad]
   double pressure = undefined, traction_radial = undefined, traction_circumferential = undefined; ///< Cauchy [MPa]
   double sliding_velocity = undefined;                                                            ///< [mm/s]
   double mu = undefined;
   const char *status = "";
+  const char *part = ""; ///< of the surface: face, or the wall beside it that may roll onto the other gel
 };
 
 /// Collective. `profile` may be null.

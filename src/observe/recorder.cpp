@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 
 namespace tribogel
 {
@@ -13,15 +14,17 @@ namespace tribogel
 namespace
 {
 
-constexpr const char *history_header =
+/// Of history.csv and profile.csv.
+enum : std::size_t { history_file, profile_file };
+constexpr std::array files = {history_file, profile_file};
+constexpr std::array headers = {
     "time_s,phase,approach_mm,rotation_rad,rate_rad_per_s,normal_force_N,torque_Nmm,contact_radius_mm,mu_apparent,"
     "mu_gong,mu_mean,mu_area_weighted,mu_pressure_weighted,newton_iterations,linear_iterations,step_s,contact_force_N,"
     "contact_torque_Nmm,force_mismatch_N,torque_mismatch_Nmm,work_of_plates_Nmm,stored_energy_Nmm,"
     "viscous_dissipation_Nmm,frictional_dissipation_Nmm,transverse_force_x_N,transverse_force_y_N,bending_moment_x_Nmm,"
-    "bending_moment_y_Nmm";
-constexpr const char *profile_header =
+    "bending_moment_y_Nmm",
     "time_s,phase,surface,reference_r_mm,reference_theta_rad,reference_z_mm,r_mm,theta_rad,z_mm,pressure_MPa,"
-    "traction_radial_MPa,traction_circumferential_MPa,sliding_velocity_mm_per_s,mu,status";
+    "traction_radial_MPa,traction_circumferential_MPa,sliding_velocity_mm_per_s,mu,status,part"};
 
 /// 17 significant digits: the number is read back bit for bit.
 std::string text(double x)
@@ -130,11 +133,10 @@ std::array<std::string, 2> Recorder::paths() const
 /// New files, or those that are there without what was written after the last checkpoint. Returns what went wrong.
 std::string Recorder::open(bool goes_on)
 {
-  const std::array<std::string, 2> headers = {history_header + std::string("\n"), profile_header + std::string("\n")};
-  for (std::size_t k = 0; k < bytes.size(); ++k) {
-    GrowingFile &file = k == 0 ? history : profile;
+  for (const std::size_t k : files) {
+    GrowingFile &file = k == history_file ? history : profile;
     std::string failed = goes_on ? file.resume(paths()[k], bytes[k]) : file.create(paths()[k]);
-    if (failed.empty() && !goes_on) failed = file.append(headers[k]);
+    if (failed.empty() && !goes_on) failed = file.append(std::string(headers[k]) + "\n");
     if (!failed.empty()) return failed;
   }
   return {};
@@ -150,11 +152,14 @@ std::string Recorder::bring_to_disk()
 
 std::string Recorder::objection_to_resume() const
 {
-  for (std::size_t k = 0; k < bytes.size(); ++k) {
+  for (const std::size_t k : files) {
     std::error_code failed;
     const std::uintmax_t size = std::filesystem::file_size(paths()[k], failed);
     if (failed) return paths()[k] + ": " + failed.message();
     if (size < bytes[k]) return paths()[k] + " is shorter than at the checkpoint";
+    std::string first;
+    std::getline(std::ifstream(paths()[k]), first);
+    if (first != headers[k]) return paths()[k] + " has other columns than this program writes";
   }
   return {};
 }
@@ -217,7 +222,7 @@ std::string Recorder::profile_of(const PhaseEnd &end) const
   for (const ProfileRow &row : last_profile)
     text += comma_separated(end.time, end.phase, row.surface, row.reference_r, row.reference_theta, row.reference_z,
                             row.r, row.theta, row.z, row.pressure, row.traction_radial, row.traction_circumferential,
-                            row.sliding_velocity, row.mu, row.status) +
+                            row.sliding_velocity, row.mu, row.status, row.part) +
             '\n';
   return text;
 }

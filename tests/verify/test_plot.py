@@ -10,14 +10,14 @@ HISTORY = ("time_s,phase,approach_mm,rotation_rad,rate_rad_per_s,normal_force_N,
            "mu_apparent,mu_gong,mu_mean,mu_area_weighted,mu_pressure_weighted,newton_iterations,linear_iterations,"
            "step_s,contact_force_N,contact_torque_Nmm,force_mismatch_N,torque_mismatch_Nmm\n")
 PROFILE = ("time_s,phase,surface,reference_r_mm,reference_theta_rad,reference_z_mm,r_mm,theta_rad,z_mm,pressure_MPa,"
-           "traction_radial_MPa,traction_circumferential_MPa,sliding_velocity_mm_per_s,mu,status\n")
+           "traction_radial_MPa,traction_circumferential_MPa,sliding_velocity_mm_per_s,mu,status,part\n")
 NO_MU = "nan,nan,nan,nan,nan"
 FIRST = f"0,1,0,0,0,0,0,0,{NO_MU},0,0,0,0,0,0,0\n"
 PRESSED = f"2.5,1,0.3,0,0,11.5,0,9.5,{NO_MU},3,3,2.5,11.5,0,1e-9,0\n"
 TURNED = "7.5,2,0.3,0.15,0.03,10.7,0.2,9.5,3e-3,2.5e-3,2.7e-3,2.6e-3,2.9e-3,4,4,5,10.7,0.2,1e-9,1e-9\n"
 SURFACES = "".join(f"{time},{phase},{surface},{r},0,0,{1.02 * r},{turn},{-0.2 + r / 90},{rest}\n"
                    for time, phase, turn in ((2.5, 1, 0), (7.5, 2, 0.15))
-                   for surface, rest in (("top", "0.04,0,2e-4,0.03,3e-3,slip"), ("bottom", "nan,nan,nan,nan,nan,nan"))
+                   for surface, rest in (("top", "0.04,0,2e-4,0.03,3e-3,slip,face"), ("bottom", "nan,nan,nan,nan,nan,nan,face"))
                    for r in (0, 3.5, 9.3))
 
 

@@ -33,7 +33,7 @@ struct NodalValue {
 
 constexpr double part = 0.85, radius = 10;
 
-/// Nodes of the pressed top's lower face, from the axis outwards; the axis node of order 2 carries no pressure.
+/// Nodes of the pressed top's lower face, from the axis outwards; what stands on the axis of order 2 is no mean.
 std::vector<NodalValue> pressed(int order, int top, int bottom)
 {
   const double end = 27;
@@ -48,7 +48,8 @@ std::vector<NodalValue> pressed(int order, int top, int bottom)
   run(scene, problem, recorder);
   std::vector<NodalValue> nodes;
   for (const ProfileRow &row : recorder.last_profile)
-    if (row.surface == std::string("top") && row.reference_z == 0) nodes.push_back({row.reference_r, row.pressure});
+    if (row.surface == std::string("top") && row.reference_z == 0)
+      nodes.push_back({row.reference_r, order == 2 && row.reference_r == 0 ? undefined : row.pressure});
   std::sort(nodes.begin(), nodes.end(), [](const auto &a, const auto &b) { return a.R < b.R; });
   return nodes;
 }

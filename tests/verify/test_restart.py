@@ -271,6 +271,11 @@ class Refused(Folder):
         path.write_bytes(path.read_bytes()[:-10])
         self.refuses(["-restart", "run"], "history.csv is shorter")
 
+    def test_files_of_other_columns(self):
+        path = self.folder / "run" / "profile.csv"
+        path.write_text(path.read_text().replace("mu,status", "status,mu", 1))
+        self.refuses(["-restart", "run"], "profile.csv has other columns")
+
     def test_but_not_the_same_scene_again_nor_another_solver(self):
         words = SHORT + ["-top_height", "4.40", "-output_directory", "run/", "-snes_rtol", "1e-9", "-wall_time", "1e3"]
         run(1, words + ["-restart", "run"], self.folder)

@@ -9,11 +9,6 @@ from .sections import ENDS, per_cent, reduced_torque
 from .values import Value, peak
 
 
-def innermost(values):
-    """The axis node of elements of order 2 carries no multiplier."""
-    return values[np.flatnonzero(np.isfinite(values))[0]]
-
-
 def profiles(results):
     run = results.shown("fig06")
     surface = run.surface("top", 5)
@@ -21,18 +16,18 @@ def profiles(results):
     touching = (surface["status"] == "slip") & (surface["pressure_MPa"] > 0)
     rate = run.rates()[-1]
     planar = run.force() / (math.pi * run.radius**2)
-    centre = results.number("fig06", lambda a: innermost(a.surface("top", 2)["pressure_MPa"]))
+    centre = results.number("fig06", lambda a: a.surface("top", 2)["pressure_MPa"][0])
     off = np.max(np.abs(v[touching] / (rate * r[touching]) - 1))
     return [
         Heading("Pressure and sliding speed over the patch", "profiles"),
         Text("Not in the paper. (3.11) assumes uniform pressure on a disc of the radius Rmin; this is what the "
              "simulation has instead."),
         Figure(further_figures.profiles(results),
-               f"Left: the gels press {innermost(p) / np.nanmin(p[touching]):.1f} times as hard in the middle as near the "
+               f"Left: the gels press {p[0] / np.nanmin(p[touching]):.1f} times as hard in the middle as near the "
                "rim; at the rim itself the top gel's edge makes a peak that grows under refinement. Middle: once the "
                "transient is over, v = ω r to round-off. Right: what turns the gels."),
         Table(("", "measured"), [
-            ("pressure at the node nearest to the axis, at rest", centre.text("kPa", 1e3)),
+            ("pressure on the axis, at rest", centre.text("kPa", 1e3)),
             ("the same over N/(π Rmin²)", f"{centre.value / planar:.3f}"),
             ("largest departure of v from ω r at 6300 s", f"{off:.0e}"),
             ("largest sliding speed at 1 rad/s",
