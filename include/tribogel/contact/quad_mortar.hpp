@@ -44,7 +44,7 @@ public:
   using Result = QuadPairMortar<order>;
 
   Kernel(const QuadMeasure<order> &slave_measure, const QuadPair<order> &facet_pair, bool derivatives)
-      : measure(slave_measure), pair(facet_pair), with_derivatives(derivatives)
+      : measure(slave_measure), pair(facet_pair), measured(facet_pair.x), with_derivatives(derivatives)
   {
   }
 
@@ -75,6 +75,7 @@ private:
 
   const QuadMeasure<order> &measure;
   const QuadPair<order> &pair;
+  StepMeasure<order> measured; ///< in xi
   bool with_derivatives;
   std::vector<Place> places;
   std::vector<Vertex> polygon;
@@ -183,12 +184,12 @@ private:
       for (int j = 0; j < 2; ++j) A.col(j) = tangent(shape.dN, pair.x, j) + g * tangent(shape.dN, pair.n, j);
       A.col(2) = normal;
       const Matrix3<double> inverse = A.inverse();
-      const Vector3<double> step = limited(inverse * (place.at - interpolate(shape.N, pair.x) - g * normal));
+      const Vector3<double> step = measured.limited(inverse * (place.at - interpolate(shape.N, pair.x) - g * normal));
       if (!step.allFinite()) return false;
       xi[0] += step[0];
       xi[1] += step[1];
       g += step[2];
-      if (std::abs(step[0]) > projection_tolerance || std::abs(step[1]) > projection_tolerance) continue;
+      if (measured(step) > projection_tolerance) continue;
       vertex.at = {xi[0], xi[1]};
       if (!with_derivatives) return true;
       const Eigen::Matrix<double, 2, 3> B = inverse.topRows<2>();

@@ -42,13 +42,35 @@ namespace quad_mortar
 // Newton's method for x(xi) + g n(xi) = y(eta).
 constexpr double projection_tolerance = 1e-9; ///< of the last step; what is left is its square
 constexpr int most_iterations = 30;
-constexpr double longest_step = 0.5; ///< in xi and eta, where half a facet has length 1
+constexpr double longest_step = 0.5; ///< where half a facet has length 1
 
-/// Newton's step, shortened where it leaves the neighbourhood in which the facet is nearly plane.
-inline Vector3<double> limited(const Vector3<double> &step)
+/// The measure of Newton's steps in a facet's xi: half its longer extent has length 1 in either direction. Over a facet
+/// that is long and narrow a small way leads across many of its widths, and round-off is a part of its width that is
+/// as many times larger.
+template <int order> class StepMeasure
 {
-  return step * std::min(1.0, longest_step / std::max(std::abs(step[0]), std::abs(step[1])));
-}
+public:
+  explicit StepMeasure(const QuadPoints<order> &x)
+  {
+    const auto shape = quad_shape<order>({0, 0});
+    const double length[2] = {tangent(shape.dN, x, 0).norm(), tangent(shape.dN, x, 1).norm()};
+    for (int j = 0; j < 2; ++j) extent[j] = length[j] / std::max(length[0], length[1]);
+  }
+
+  double operator()(const Vector3<double> &step) const
+  {
+    return std::max(extent[0] * std::abs(step[0]), extent[1] * std::abs(step[1]));
+  }
+
+  /// Shortened where it leaves the neighbourhood in which the facet is nearly plane.
+  Vector3<double> limited(const Vector3<double> &step) const
+  {
+    return step * std::min(1.0, longest_step / (*this)(step));
+  }
+
+private:
+  std::array<double, 2> extent; ///< over the longer
+};
 
 template <int order> class Point
 {
@@ -56,7 +78,7 @@ public:
   static constexpr int nodes = tensor_nodes<2, order>;
 
   Point(const QuadMeasure<order> &slave_measure, const QuadPair<order> &facet_pair)
-      : measure(slave_measure), pair(facet_pair)
+      : measure(slave_measure), pair(facet_pair), measured(facet_pair.y)
   {
     for (int b = 0; b < nodes; ++b) y.col(b) << pair.y[b], 0;
   }
@@ -85,12 +107,12 @@ public:
       Matrix3<double> A;
       A << place.t1.template head<3>(), place.t2.template head<3>(), -normal;
       const Matrix3<double> inverse = A.inverse();
-      const Vector3<double> step = limited(inverse * (point + at.g * normal - place.y.template head<3>()));
+      const Vector3<double> step = measured.limited(inverse * (point + at.g * normal - place.y.template head<3>()));
       if (!step.allFinite()) return at;
       at.eta[0] += step[0];
       at.eta[1] += step[1];
       at.g += step[2];
-      if (std::abs(step[0]) > projection_tolerance || std::abs(step[1]) > projection_tolerance) continue;
+      if (measured(step) > projection_tolerance) continue;
       at.master = quad_shape<order>(at.eta);
       at.slope = inverse.template topRows<2>();
       at.found = true;
@@ -137,13 +159,14 @@ private:
   };
   const QuadMeasure<order> &measure;
   const QuadPair<order> &pair;
+  StepMeasure<order> measured; ///< in eta
   Eigen::Matrix<double, 4, nodes> y;
   Last last;
 
   std::array<double, 2> start(const Vector3<double> &point, const Vector3<double> &normal) const
   {
     const Vector2<double> on = last.slope * (point + last.g * normal - last.y);
-    const Vector3<double> step = limited({on[0], on[1], 0});
+    const Vector3<double> step = measured.limited({on[0], on[1], 0});
     if (!step.allFinite()) return last.eta;
     return {last.eta[0] + step[0], last.eta[1] + step[1]};
   }
