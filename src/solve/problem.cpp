@@ -152,6 +152,7 @@ PlateFrames Problem::frames(double time, double step) const
   frames.bottom_rotation = scene.bottom_plate_rate * time;
   frames.top_axis = scene.misalignment.offset;
   if (step > 0) frames.step = step;
+  if (steady()) frames.step = std::numeric_limits<double>::infinity();
   return frames;
 }
 
