@@ -110,6 +110,7 @@ PetscErrorCode Run(const CommandLine &line, int &status)
   status = outcome.status = completed                       ? exit_status::completed
                             : !problem.stop_request.empty() ? exit_status::stopped_on_request
                                                             : exit_status::cannot_go_on;
+  if (completed) PetscCall(recorder.Conclude(problem));
   if (status == exit_status::cannot_go_on) PetscCall(checkpoint.Write(problem));
   PetscCall(checkpoint.Cost(comm, cost));
   const auto write = [&](const ErrorEstimate *estimate) {

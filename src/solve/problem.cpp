@@ -115,6 +115,7 @@ PetscErrorCode Problem::SetUpFields()
   PetscCall(VecZeroEntries(round_off));
   PetscCall(DMLocalToGlobal(mesh.dm, local, ADD_VALUES, round_off));
   PetscCall(DMRestoreLocalVector(mesh.dm, &local));
+  PetscCall(MeasureRoundOff());
   PetscFunctionReturn(0);
 }
 

@@ -123,6 +123,10 @@ public:
   MatHandle jacobian;
   DirectSolver direct_solver; ///< hooked where options ask for one
 
+  // What round-off leaves of nothing, set once.
+  PlateLoads least_loads{}; ///< N [N], T [N mm]
+  double least_strain = 0;  ///< as State::largest_strain
+
   // What the last evaluation left for the convergence test and for messages.
   VecHandle magnitude, round_off; ///< global: sum of absolute forces; floor of their round-off
   std::vector<char> group;        ///< of each owned unknown
@@ -153,7 +157,7 @@ public:
   PetscErrorCode PredictStage(Vec U) const;
   PetscErrorCode AcceptStep(PetscReal time, Vec U);
   PetscErrorCode EvaluateEnd(PetscReal time, History &next, CellEnergy &energy); ///< of the solve that converged last
-  PetscErrorCode JudgeResidual(Vec F, bool &converged);
+  PetscErrorCode JudgeResidual(Vec F, bool has_iterated, bool &converged);
   PetscErrorCode FirstStep(PetscReal &step, PetscReal &unresolved) const; ///< of the phase [s]
   PetscErrorCode SumPlateLoads(PlateLoads &loads) const;
   PetscErrorCode Diagnose(SNES snes, StepFailure &failure) const; ///< of a solve that diverged
@@ -171,11 +175,14 @@ private:
   PetscErrorCode ListContactUnknowns();
   PetscErrorCode InterpolateFromVertices(const PetscInt *to_global, ContactUnknowns &list);
   PetscErrorCode MeasurePlate();
+  PetscErrorCode MeasureRoundOff();
   PetscErrorCode SetUpTs();
   PetscErrorCode SetUpLinearSolver(SNES snes);
   PetscErrorCode HookLinearSolver(SNES snes);
-  PetscReal ShortestStep() const; ///< of the phase [s]
-  PetscReal LongestStep() const;  ///< of the phase [s]
+  PetscReal ShortestStep() const;   ///< of the phase [s]
+  PetscReal LongestStep() const;    ///< of the phase [s]
+  PetscReal TimeUntilTouch() const; ///< [s]
+  PetscErrorCode StopAtTouch(PetscReal left_before);
   PetscErrorCode RunPhase(int k);
   PetscErrorCode Notify(const std::string &text);
   PetscErrorCode CountFailures();

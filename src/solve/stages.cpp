@@ -150,9 +150,10 @@ PetscErrorCode EvaluateSecondOrderError(TS ts, NormType, PetscInt *order, PetscR
   PetscCall(problem->SumPlateLoads(loads));
   for (int k = 0; k < 2; ++k) scale[k] = std::max({state.largest[k], std::abs(stage.loads[k]), std::abs(loads[k])});
   scale = problem->load_scales(scale);
-  for (int k = 0; k < 2; ++k)
-    if (scale[k] > 0)
-      bend = std::max(bend, std::abs(loads[k] - state.loads[k] - (stage.loads[k] - state.loads[k]) / gamma) / scale[k]);
+  for (int k = 0; k < 2; ++k) {
+    const double change = std::abs(loads[k] - state.loads[k] - (stage.loads[k] - state.loads[k]) / gamma);
+    bend = std::max(bend, change / (fraction * scale[k] + problem->least_loads[k]));
+  }
 
   PetscCall(problem->EvaluateEnd(stage.time, end, energy));
   PetscCall(problem->LargestStrain(end, strain));
@@ -162,11 +163,11 @@ PetscErrorCode EvaluateSecondOrderError(TS ts, NormType, PetscInt *order, PetscR
   }
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(ts));
   PetscCall(Norm(comm, problem->bulk->SquaredStress(end), strain_bend));
-  if (strain > 0) bend = std::max(bend, strain_bend / strain);
-  *error = keeps_the_step * sdirk2::error_constant / (gamma * (1 - gamma)) * bend / fraction;
+  bend = std::max(bend, strain_bend / (fraction * strain + problem->least_strain));
+  *error = keeps_the_step * sdirk2::error_constant / (gamma * (1 - gamma)) * bend;
+  *error = rounded(*error);
   PetscCall(problem->FirstStep(first, unresolved));
   if (step <= unresolved) *error = std::min(*error, keeps_the_step);
-  *error = rounded(*error);
   PetscFunctionReturn(0);
 }
 
