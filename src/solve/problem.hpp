@@ -57,6 +57,7 @@ struct Stage {
   double length = 0;     ///< [s]
   VecHandle U;           ///< where the first stage ended
   History history;       ///< internal variables where the second starts
+  bool damped = false;   ///< the second goes on from the first by Euler's rule
   PlateLoads loads{};    ///< at the end of the first
   double dissipated = 0; ///< the first stage's part of the step's, this rank's cells [N mm]
   PetscInt newton_iterations = 0, linear_iterations = 0; ///< of the first
@@ -154,6 +155,8 @@ public:
   PetscErrorCode ChooseTolerance(SNES snes);            ///< of the linear solve to come
   PetscErrorCode BeginStage(int index, PetscReal time); ///< of SDIRK2
   PetscErrorCode EndStage(int index, Vec U);
+  PetscErrorCode Rings(bool &rings) const; ///< whether T has turned round in the second stage
+  PetscErrorCode DampStage();              ///< the second is to be solved again
   PetscErrorCode PredictStage(Vec U) const;
   PetscErrorCode AcceptStep(PetscReal time, Vec U);
   PetscErrorCode EvaluateEnd(PetscReal time, History &next, CellEnergy &energy); ///< of the solve that converged last
