@@ -277,9 +277,10 @@ PetscReal Problem::ShortestStep() const
 PetscReal Problem::TimeUntilTouch() const
 {
   const Phase &now = phase();
-  if (!scene.has_top || state.largest[0] > least_loads[0]) return 0;
+  const bool alone_and_moves = !scene.has_top && (now.end_approach != 0 || now.rate != scene.bottom_plate_rate);
+  if (alone_and_moves || state.largest[0] > least_loads[0] || state.largest[1] > least_loads[1]) return 0;
   double touch = now.end_time;
-  if (now.end_approach > scene.initial_gap)
+  if (scene.has_top && now.end_approach > scene.initial_gap)
     touch = now.start_time + (scene.initial_gap - now.start_approach) / now.approach_rate() - 2 * ShortestStep();
   const double left = touch - std::max(state.time, now.start_time);
   return left > ShortestStep() ? left : 0;
@@ -293,7 +294,7 @@ PetscErrorCode Problem::StopAtTouch(PetscReal left_before)
   const double left = TimeUntilTouch();
   if (left_before > 0 && left == 0 && state.time < phase().end_time) {
     PetscCall(FirstStep(step, unresolved));
-    PetscCall(TSSetTimeStep(ts, step));
+    PetscCall(TSSetTimeStep(ts, std::min(step, phase().end_time - state.time)));
   } else if (left > 0) {
     PetscCall(TSGetTimeStep(ts, &step));
     PetscCall(TSSetTimeStep(ts, std::min(step, left)));

@@ -103,6 +103,28 @@ TEST(gap, NothingTakesAStepAPhase)
   }
 }
 
+/// No step goes over the touch, however late in a phase it is, and what follows takes the steps of a phase. N is
+/// proportional to the travel that is left.
+TEST(gap, ClosedLateIsMetWithoutFailures)
+{
+  std::vector<double> stiffness;
+  for (const double left : {1e-2, 1e-4, 1e-7}) {
+    Scene scene = paper_scene(4);
+    scene.bottom.radius = scene.top.radius;
+    scene.initial_gap = 0.5;
+    const double approach = scene.initial_gap + left;
+    scene.schedule = schedule_from_rates({27, 3600}, {approach, approach}, {0.05, 0});
+    Problem problem;
+    Recorder recorder("");
+    run(scene, problem, recorder);
+    EXPECT_EQ(problem.counts.failed_solves, 0);
+    EXPECT_LE(problem.counts.accepted_steps + problem.counts.rejected_steps, 40);
+    stiffness.push_back(recorder.phases.back().measurement.normal_force / left);
+  }
+  EXPECT_NEAR(stiffness[1] / stiffness[0], 1, 5e-3); // measured without gap: 1.1e-3 between 1e-2 and 1e-4 mm
+  EXPECT_NEAR(stiffness[2] / stiffness[1], 1, 1e-3);
+}
+
 /// In the linear limit N is proportional to the travel, T to N, and the steps are those of any other travel.
 TEST(gap, TinyTravelsAreLinearAndTakeNoMoreSteps)
 {
