@@ -149,6 +149,7 @@ PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
   outcome.status = completed                       ? exit_status::completed
                    : !problem.stop_request.empty() ? exit_status::stopped_on_request
                                                    : exit_status::cannot_go_on;
+  if (completed) PetscCall(recorder.Conclude(problem));
   if (outcome.status == exit_status::cannot_go_on) {
     PetscCall(checkpoint.Write(problem));
     outcome.reason = problem.stop_reason;

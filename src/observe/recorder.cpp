@@ -2,11 +2,13 @@
 
 #include "scene/first_process.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 namespace tribogel
 {
@@ -184,6 +186,23 @@ PetscErrorCode Recorder::Notice(Problem &, const std::string &text)
   PetscFunctionBeginUser;
   notices.push_back(text);
   if (on_notice) on_notice(text);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Recorder::Conclude(Problem &problem)
+{
+  PetscFunctionBeginUser;
+  const bool pressed = std::any_of(rows.begin(), rows.end(), [&problem](const HistoryRow &row) {
+    return std::abs(row.measurement.normal_force) > problem.least_loads[0];
+  });
+  if (pressed || !problem.contact || !problem.contact->between_gels()) PetscFunctionReturn(0);
+  double approach = 0;
+  for (const Phase &phase : problem.scene.schedule) approach = std::max(approach, phase.end_approach);
+  std::ostringstream text;
+  text << "the gels have never been pressed together: N and T are zero throughout. The top plate comes down by "
+       << approach << " mm at most, and the gels are " << problem.scene.initial_gap
+       << " mm apart at the start: -schedule_approach has to be larger than -initial_gap";
+  PetscCall(Notice(problem, text.str()));
   PetscFunctionReturn(0);
 }
 

@@ -46,6 +46,9 @@ public:
   PetscErrorCode Failed(Problem &problem, const StepFailure &failure) override;
   PetscErrorCode Notice(Problem &problem, const std::string &text) override;
 
+  /// What a complete run has to tell in the end.
+  PetscErrorCode Conclude(Problem &problem);
+
   /// First process: the files' rows so far survive the machine's end; `bytes` is updated. Returns what went wrong.
   std::string bring_to_disk();
 

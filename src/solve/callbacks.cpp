@@ -129,7 +129,7 @@ PetscErrorCode Converged(SNES snes, PetscInt iteration, PetscReal, PetscReal, Pe
     PetscFunctionReturn(0);
   }
   PetscCall(SNESGetFunction(snes, &F, nullptr, nullptr));
-  PetscCall(problem.JudgeResidual(F, converged));
+  PetscCall(problem.JudgeResidual(F, iteration > 0, converged));
   PetscCall(SNESGetTolerances(snes, nullptr, nullptr, nullptr, &most, nullptr));
   if (converged)
     *reason = SNES_CONVERGED_FNORM_RELATIVE;

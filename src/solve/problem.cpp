@@ -116,6 +116,7 @@ PetscErrorCode Problem::SetUpFields()
   PetscCall(VecZeroEntries(round_off));
   PetscCall(DMLocalToGlobal(mesh.dm, local, ADD_VALUES, round_off));
   PetscCall(DMRestoreLocalVector(mesh.dm, &local));
+  PetscCall(MeasureRoundOff());
   PetscFunctionReturn(0);
 }
 
@@ -153,6 +154,7 @@ PlateFrames Problem::frames(double time, double step) const
   frames.bottom_rotation = scene.bottom_plate_rate * time;
   frames.top_axis = scene.misalignment.offset;
   if (step > 0) frames.step = step;
+  if (steady()) frames.step = std::numeric_limits<double>::infinity();
   return frames;
 }
 

@@ -58,6 +58,7 @@ struct Stage {
   double length = 0;     ///< [s]
   VecHandle U;           ///< where the first stage ended
   History history;       ///< internal variables where the second starts
+  bool damped = false;   ///< the second goes on from the first by Euler's rule
   PlateLoads loads{};    ///< at the end of the first
   double dissipated = 0; ///< the first stage's part of the step's, this rank's cells [N mm]
   PetscInt newton_iterations = 0, linear_iterations = 0; ///< of the first
@@ -129,6 +130,10 @@ public:
   MatHandle jacobian;
   DirectSolver direct_solver; ///< hooked where options ask for one
 
+  // What round-off leaves of nothing, set once.
+  PlateLoads least_loads{}; ///< N [N], T [N mm]
+  double least_strain = 0;  ///< as State::largest_strain
+
   // What the last evaluation left for the convergence test and for messages.
   VecHandle magnitude, round_off; ///< global: sum of absolute forces; floor of their round-off
   std::vector<char> group;        ///< of each owned unknown
@@ -162,10 +167,12 @@ public:
   PetscErrorCode ChooseTolerance(SNES snes);            ///< of the linear solve to come
   PetscErrorCode BeginStage(int index, PetscReal time); ///< of SDIRK2
   PetscErrorCode EndStage(int index, Vec U);
+  PetscErrorCode Rings(bool &rings) const; ///< whether T has turned round in the second stage
+  PetscErrorCode DampStage();              ///< the second is to be solved again
   PetscErrorCode PredictStage(Vec U) const;
   PetscErrorCode AcceptStep(PetscReal time, Vec U);
   PetscErrorCode EvaluateEnd(PetscReal time, History &next, CellEnergy &energy); ///< of the solve that converged last
-  PetscErrorCode JudgeResidual(Vec F, bool &converged);
+  PetscErrorCode JudgeResidual(Vec F, bool has_iterated, bool &converged);
   PetscErrorCode FirstStep(PetscReal &step, PetscReal &unresolved) const; ///< of the phase [s]
   PetscErrorCode SumPlateLoads(PlateLoads &loads) const;
   PetscErrorCode Diagnose(SNES snes, StepFailure &failure) const; ///< of a solve that diverged
@@ -183,11 +190,14 @@ private:
   PetscErrorCode ListContactUnknowns();
   PetscErrorCode InterpolateFromVertices(const PetscInt *to_global, ContactUnknowns &list);
   PetscErrorCode MeasurePlate();
+  PetscErrorCode MeasureRoundOff();
   PetscErrorCode SetUpTs();
   PetscErrorCode SetUpLinearSolver(SNES snes);
   PetscErrorCode HookLinearSolver(SNES snes);
-  PetscReal ShortestStep() const; ///< of the phase [s]
-  PetscReal LongestStep() const;  ///< of the phase [s]
+  PetscReal ShortestStep() const;   ///< of the phase [s]
+  PetscReal LongestStep() const;    ///< of the phase [s]
+  PetscReal TimeUntilTouch() const; ///< [s]
+  PetscErrorCode StopAtTouch(PetscReal left_before);
   PetscErrorCode RunPhase(int k);
   PetscErrorCode Notify(const std::string &text);
   PetscErrorCode CountFailures();

@@ -28,6 +28,7 @@ PetscErrorCode Problem::BeginStage(int index, PetscReal time)
   stage.index = index;
   stage.time = time;
   if (index == 0) stage.length = time - state.time;
+  stage.damped = false;
   PetscFunctionReturn(0);
 }
 
@@ -48,6 +49,48 @@ PetscErrorCode Problem::EndStage(int index, Vec U)
   PetscFunctionReturn(0);
 }
 
+/// Where a contact gives way much faster than within a step, T is to level off, and (4.4) throws it past its steady
+/// value: R(z) < 0 in (4.5). Then, and only then, the rate of a T that levels off changes its sign from the first stage
+/// to the second. In steps whose error counts it is the estimate that keeps this below the tolerance.
+PetscErrorCode Problem::Rings(bool &rings) const
+{
+  constexpr double worth_a_solve = 0.1; // of the tolerance
+  constexpr int torque = 1;
+  PlateLoads loads;
+  PetscReal step, first_step, unresolved, fraction;
+  TSAdapt adapt;
+  PetscBool fixed;
+  PetscFunctionBeginUser;
+  PetscCall(TSGetTimeStep(ts, &step));
+  PetscCall(FirstStep(first_step, unresolved));
+  PetscCall(TSGetAdapt(ts, &adapt));
+  PetscCall(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(adapt), TSADAPTNONE, &fixed));
+  PetscCall(SumPlateLoads(loads));
+  PetscCall(TSGetTolerances(ts, &fraction, nullptr, nullptr, nullptr));
+  PlateLoads largest = state.largest;
+  for (int k = 0; k < 2; ++k) largest[k] = std::max({largest[k], std::abs(stage.loads[k]), std::abs(loads[k])});
+  const double first = stage.loads[torque] - state.loads[torque];
+  const double second = loads[torque] - state.loads[torque] - sdirk2::reach * first;
+  const double tolerated = fraction * load_scales(largest)[torque] + least_loads[torque];
+  rings = scene.has_top && (fixed || step <= unresolved) && !steady() && first * second < 0 &&
+          std::abs(second) > worth_a_solve * tolerated;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Problem::DampStage()
+{
+  SNES snes;
+  PetscInt newton, linear;
+  PetscFunctionBeginUser;
+  PetscCall(TSGetSNES(ts, &snes));
+  PetscCall(SNESGetIterationNumber(snes, &newton));
+  PetscCall(SNESGetLinearSolveIterations(snes, &linear));
+  stage.newton_iterations += newton;
+  stage.linear_iterations += linear;
+  stage.damped = true;
+  PetscFunctionReturn(0);
+}
+
 /// The rate at the end of a step and the mean one of the step give a parabola that goes on in the next, unless that is
 /// much longer. After a jump of the plate's motion nothing is known.
 PetscErrorCode Problem::PredictStage(Vec U) const
@@ -56,6 +99,7 @@ PetscErrorCode Problem::PredictStage(Vec U) const
   constexpr double much_longer = 2;
   PetscReal step;
   PetscFunctionBeginUser;
+  if (stage.damped) PetscFunctionReturn(0); // from what the undamped one has found
   PetscCall(TSGetTimeStep(ts, &step));
   PetscCall(VecCopy(state.U, U));
   const bool known = state.steps_in_phase >= 2 && step <= much_longer * state.step;
@@ -110,6 +154,11 @@ PetscErrorCode Problem::SetRates(double step, Vec U)
   }
   PetscCall(VecWAXPY(state.Udot_before, -1, before, U));
   PetscCall(VecScale(state.Udot_before, 1 / step));
+  if (stage.damped) {
+    PetscCall(VecWAXPY(state.Udot, -1, stage.U, U));
+    PetscCall(VecScale(state.Udot, 1 / (step - stage.length)));
+    PetscFunctionReturn(0);
+  }
   PetscCall(VecCopy(U, state.Udot));
   PetscCall(VecAXPBYPCZ(state.Udot, -sdirk2::reach, sdirk2::reach - 1, 1, stage.U, before));
   PetscCall(VecScale(state.Udot, 1 / stage.length));
@@ -150,9 +199,10 @@ PetscErrorCode EvaluateSecondOrderError(TS ts, NormType, PetscInt *order, PetscR
   PetscCall(problem->SumPlateLoads(loads));
   for (int k = 0; k < 2; ++k) scale[k] = std::max({state.largest[k], std::abs(stage.loads[k]), std::abs(loads[k])});
   scale = problem->load_scales(scale);
-  for (int k = 0; k < 2; ++k)
-    if (scale[k] > 0)
-      bend = std::max(bend, std::abs(loads[k] - state.loads[k] - (stage.loads[k] - state.loads[k]) / gamma) / scale[k]);
+  for (int k = 0; k < 2; ++k) {
+    const double change = std::abs(loads[k] - state.loads[k] - (stage.loads[k] - state.loads[k]) / gamma);
+    bend = std::max(bend, change / (fraction * scale[k] + problem->least_loads[k]));
+  }
 
   PetscCall(problem->EvaluateEnd(stage.time, end, energy));
   PetscCall(problem->LargestStrain(end, strain));
@@ -162,11 +212,11 @@ PetscErrorCode EvaluateSecondOrderError(TS ts, NormType, PetscInt *order, PetscR
   }
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(ts));
   PetscCall(Norm(comm, problem->bulk->SquaredStress(end), strain_bend));
-  if (strain > 0) bend = std::max(bend, strain_bend / strain);
-  *error = keeps_the_step * sdirk2::error_constant / (gamma * (1 - gamma)) * bend / fraction;
+  bend = std::max(bend, strain_bend / (fraction * strain + problem->least_strain));
+  *error = keeps_the_step * sdirk2::error_constant / (gamma * (1 - gamma)) * bend;
+  *error = rounded(*error);
   PetscCall(problem->FirstStep(first, unresolved));
   if (step <= unresolved) *error = std::min(*error, keeps_the_step);
-  *error = rounded(*error);
   PetscFunctionReturn(0);
 }
 

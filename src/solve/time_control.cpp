@@ -47,8 +47,8 @@ PetscErrorCode EvaluateError(TS ts, NormType, PetscInt *order, PetscReal *error)
   *error = 0;
   for (int k = 0; k < 2; ++k) {
     const double bend = (loads[k] - state.loads[k]) / step - state.load_rates[k];
-    if (scale[k] > 0)
-      *error = std::max(*error, step * step / (step + state.step) * std::abs(bend) / (fraction * scale[k]));
+    *error = std::max(*error, step * step / (step + state.step) * std::abs(bend) /
+                                  (fraction * scale[k] + problem->least_loads[k]));
   }
   *error = rounded(*error);
   // What is over sooner than anybody looks is not resolved: Euler's rule damps it.
@@ -153,7 +153,7 @@ PetscErrorCode Problem::AcceptStep(PetscReal time, Vec U)
   History next;
   PetscFunctionBeginUser;
   PetscCall(PetscLogEventBegin(events.accept_step, 0, 0, 0, 0));
-  const double step = time - state.time;
+  const double step = time - state.time, until_touch = TimeUntilTouch();
   if (U != static_cast<Vec>(state.U)) PetscCall(VecCopy(U, state.U));
   PetscCall(SetRates(step, U));
   PetscCall(EvaluateEnd(time, next, energy));
@@ -182,6 +182,7 @@ PetscErrorCode Problem::AcceptStep(PetscReal time, Vec U)
   report.ends_phase = time == phase().end_time;
   PetscCall(CheckFriction());
   PetscCall(EndPhaseEarly());
+  PetscCall(StopAtTouch(until_touch));
   PetscCall(TSGetTimeStep(ts, &state.next_step));
   PetscCall(CountFailures());
   ++counts.accepted_steps;
@@ -256,10 +257,13 @@ PetscErrorCode Problem::FirstStep(PetscReal &step, PetscReal &unresolved) const
     for (const auto &branch : gel->material.branches) tau = std::min(tau, shape_relaxation_time(branch));
   const double constant = scene.time.rule == TimeRule::sdirk2 ? sdirk2::error_constant : 0.5;
   unresolved = step = std::min(std::max(std::sqrt(fraction / constant) * tau, ShortestStep()), phase().duration());
+  if (TimeUntilTouch() == phase().duration()) step = phase().duration(); // nothing happens in it
   if (given_first_step > 0) {
     step = std::min(std::max(given_first_step, ShortestStep()), phase().duration());
     unresolved = std::min(step, unresolved);
   }
+  constexpr double rounding = 1e-3; // of steps that TS repeats
+  unresolved *= 1 + rounding;
   PetscFunctionReturn(0);
 }
 
@@ -267,6 +271,36 @@ PetscErrorCode Problem::FirstStep(PetscReal &step, PetscReal &unresolved) const
 PetscReal Problem::ShortestStep() const
 {
   return 16 * std::numeric_limits<double>::epsilon() * phase().end_time;
+}
+
+/// While nothing has been loaded there is nothing to be resolved until the plate has travelled the gap. A little less,
+/// so that the gels are apart then; 0 afterwards.
+PetscReal Problem::TimeUntilTouch() const
+{
+  const Phase &now = phase();
+  const bool alone_and_moves = !scene.has_top && (now.end_approach != 0 || now.rate != scene.bottom_plate_rate);
+  if (alone_and_moves || state.largest[0] > least_loads[0] || state.largest[1] > least_loads[1]) return 0;
+  double touch = now.end_time;
+  if (scene.has_top && now.end_approach > scene.initial_gap)
+    touch = now.start_time + (scene.initial_gap - now.start_approach) / now.approach_rate() - 2 * ShortestStep();
+  const double left = touch - std::max(state.time, now.start_time);
+  return left > ShortestStep() ? left : 0;
+}
+
+/// No step goes over the first touch, and one that ends there is followed by as short a one as begins a phase.
+PetscErrorCode Problem::StopAtTouch(PetscReal left_before)
+{
+  PetscReal step, unresolved;
+  PetscFunctionBeginUser;
+  const double left = TimeUntilTouch();
+  if (left_before > 0 && left == 0 && state.time < phase().end_time) {
+    PetscCall(FirstStep(step, unresolved));
+    PetscCall(TSSetTimeStep(ts, std::min(step, phase().end_time - state.time)));
+  } else if (left > 0) {
+    PetscCall(TSGetTimeStep(ts, &step));
+    PetscCall(TSSetTimeStep(ts, std::min(step, left)));
+  }
+  PetscFunctionReturn(0);
 }
 
 /// Loads that turn through the gels come back after a revolution: a step of much of one would not see that they change.

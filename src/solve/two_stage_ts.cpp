@@ -71,11 +71,28 @@ PetscErrorCode StageJacobian(SNES, Vec U, Mat A, Mat P, TS ts)
   PetscFunctionReturn(0);
 }
 
+/// From data.base to data.time, with data.U as what is known of it.
+PetscErrorCode SolveStage(TS ts, int stage, PetscBool &solved)
+{
+  TwoStageData &data = data_of(ts);
+  PetscInt newton, linear;
+  PetscFunctionBegin;
+  PetscCall(SNESSolve(ts->snes, nullptr, data.U));
+  PetscCall(SNESGetIterationNumber(ts->snes, &newton));
+  PetscCall(SNESGetLinearSolveIterations(ts->snes, &linear));
+  ts->snes_its += newton;
+  ts->ksp_its += linear;
+  Vec end = data.U;
+  PetscCall(TSPostStage(ts, data.time, stage, &end));
+  PetscCall(TSAdaptCheckStage(ts->adapt, ts, data.time, data.U, &solved));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode SolveStages(TS ts, PetscBool &solved)
 {
   TwoStageData &data = data_of(ts);
   Problem *problem;
-  PetscInt newton, linear;
+  bool rings;
   PetscFunctionBegin;
   PetscCall(TSGetApplicationContext(ts, &problem));
   const double length = sdirk2::gamma * ts->time_step;
@@ -86,17 +103,16 @@ PetscErrorCode SolveStages(TS ts, PetscBool &solved)
     if (stage == 1) // U_n + reach (U_1 - U_n)
       PetscCall(VecAXPBYPCZ(data.base, sdirk2::reach, 1 - sdirk2::reach, 0, data.U, data.before));
     PetscCall(problem->BeginStage(stage, data.time));
-    PetscCall(SNESSolve(ts->snes, nullptr, data.U));
-    PetscCall(SNESGetIterationNumber(ts->snes, &newton));
-    PetscCall(SNESGetLinearSolveIterations(ts->snes, &linear));
-    ts->snes_its += newton;
-    ts->ksp_its += linear;
-    Vec end = data.U;
-    PetscCall(TSPostStage(ts, data.time, stage, &end));
-    PetscCall(TSAdaptCheckStage(ts->adapt, ts, data.time, data.U, &solved));
-    if (!solved) break;
+    PetscCall(SolveStage(ts, stage, solved));
+    if (!solved) PetscFunctionReturn(0);
     PetscCall(problem->EndStage(stage, data.U));
   }
+  PetscCall(problem->Rings(rings));
+  if (!rings) PetscFunctionReturn(0);
+  PetscCall(VecCopy(problem->stage.U, data.base));
+  data.shift = 1 / (ts->time_step - length);
+  PetscCall(problem->DampStage());
+  PetscCall(SolveStage(ts, 1, solved));
   PetscFunctionReturn(0);
 }
 

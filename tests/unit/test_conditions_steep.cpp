@@ -1,6 +1,6 @@
 /// Contact conditions of laws that are not smooth at v = 0 or p = 0: exact zeros, derivatives, rest, Newton's method
 /// over decades.
-#include "tribogel/contact/conditions.hpp"
+#include "tribogel/contact/condition_slope.hpp"
 #include "tribogel/friction/polynomial.hpp"
 
 #include <gtest/gtest.h>
@@ -154,6 +154,45 @@ TEST(SteepCondition, IsContinuouslyDifferentiableAtRest)
   const auto unloaded = jacobian(pack({0, 0, 0}, 0, Vector3<double>::Zero(), 1), {{0.4}, {0.5}});
   EXPECT_TRUE(unloaded.allFinite());
   EXPECT_EQ(unloaded(1, 1), 1);
+}
+
+/// In a steady state the velocity is the plates' (c_T infinite): the rows hold the law, they are linear in the
+/// multiplier, and at rest, where nothing drags, they say that there is no traction.
+TEST(SteepCondition, AtAGivenVelocityIsTheLaw)
+{
+  const ContactScale given{scale.normal, std::numeric_limits<double>::infinity()};
+  const double J = 1.37, p = 1.7;
+  for (const auto &exponents : exponent_lists)
+    for (const double a : pressure_exponents) {
+      const Law law = law_of(exponents, a, 1.1, p, 0.31);
+      const auto at = [&](const Vector11 &x) { return contact_condition<double>(unpack<double>(x), given, law); };
+      const auto slope = [&](const Vector11 &x) { return condition_slope<11>(unpack<double>(x), given, law); };
+      for (const double v : {1e-12, 0.02, 30.0}) {
+        const Vector3<double> direction = tangential(0.6, 0.8);
+        const double tau = law.coefficient(v, p / (a == 1 ? 1 : J)) * p;
+        const Vector11 x = pack(-p * normal - tau * direction, 0, v * direction, J);
+        EXPECT_EQ(at(x).status, ContactStatus::slip);
+        EXPECT_LT(at(x).residual.norm(), 64 * eps * (tau + p));
+        const Vector3<double> more = tangential(0.4, -0.3);
+        EXPECT_LT((at(pack(-p * normal - tau * direction + more, 0, v * direction, J)).residual - more).norm(),
+                  64 * eps * (tau + p));
+        const auto derivative = slope(x);
+        for (int j = 0; j < 11; ++j) {
+          const double h = j >= 4 && j < 7 ? 1e-3 * v : 1e-5;
+          const auto moved = [&](double by) { return at(x + by * Vector11::Unit(j)).residual; };
+          const Vector3<double> difference = (8 * (moved(h) - moved(-h)) - (moved(2 * h) - moved(-2 * h))) / (12 * h);
+          EXPECT_LT((derivative.col(j) - difference).norm(), 1e-7 * derivative.col(j).norm() + 1e-9) << "column " << j;
+        }
+      }
+      const Vector3<double> traction = tangential(0.2, -0.5);
+      const Vector11 resting = pack(-p * normal + traction, 0, Vector3<double>::Zero(), J);
+      EXPECT_LT((at(resting).residual - traction).norm(), 8 * eps);
+      EXPECT_EQ(at(resting).status, ContactStatus::stick);
+      EXPECT_TRUE(slope(resting).allFinite());
+      const Matrix3<double> by_multiplier_and_gap =
+          slope(resting).leftCols<3>() + slope(resting).col(3) * normal.transpose();
+      EXPECT_EQ(by_multiplier_and_gap.fullPivLu().rank(), 3);
+    }
 }
 
 /// A node on springs, u and lambda unknown, which is given a velocity at once; its anchor comes down by p / k_n, so

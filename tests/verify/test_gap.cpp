@@ -6,7 +6,10 @@
 #include "solver_options.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace tribogel::test
 {
@@ -69,6 +72,80 @@ TEST(gap, NothingBeforeTouchAndTheSameStateAfterwards)
     }
     EXPECT_LE(place, 1e-8 * 10);
     EXPECT_LE(pressure, 1e-8);
+  }
+}
+
+/// Nothing is resolved where nothing happens: no touch in any phase, only touch, one gel that stays as it is.
+TEST(gap, NothingTakesAStepAPhase)
+{
+  Scene apart = paper_scene(4), touching = apart, alone = apart;
+  apart.initial_gap = 1;
+  for (Phase &phase : touching.schedule) phase.start_approach = phase.end_approach = 0;
+  alone.has_top = false;
+  alone.schedule = schedule_from_rates({27, 3600}, {0, 0}, {0, 0});
+  for (const Scene &scene : {apart, touching, alone}) {
+    Problem problem;
+    Recorder recorder("");
+    run(scene, problem, recorder);
+    EXPECT_EQ(recorder.Conclude(problem), 0);
+    EXPECT_LE(problem.counts.accepted_steps, 12);
+    EXPECT_EQ(problem.counts.rejected_steps, 0);
+    const double round_off =
+        16 * std::numeric_limits<double>::epsilon() * 400 * std::numbers::pi * 100; // of (K + K_v) A
+    for (const HistoryRow &row : recorder.rows) {
+      EXPECT_LE(std::abs(row.measurement.normal_force), round_off);
+      EXPECT_EQ(row.measurement.torque, 0);
+    }
+    ASSERT_EQ(recorder.notices.size(), scene.has_top ? 1u : 0u);
+    if (scene.has_top) {
+      EXPECT_NE(recorder.notices[0].find("never been pressed together"), std::string::npos);
+    }
+  }
+}
+
+/// No step goes over the touch, however late in a phase it is, and what follows takes the steps of a phase. N is
+/// proportional to the travel that is left.
+TEST(gap, ClosedLateIsMetWithoutFailures)
+{
+  std::vector<double> stiffness;
+  for (const double left : {1e-2, 1e-4, 1e-7}) {
+    Scene scene = paper_scene(4);
+    scene.bottom.radius = scene.top.radius;
+    scene.initial_gap = 0.5;
+    const double approach = scene.initial_gap + left;
+    scene.schedule = schedule_from_rates({27, 3600}, {approach, approach}, {0.05, 0});
+    Problem problem;
+    Recorder recorder("");
+    run(scene, problem, recorder);
+    EXPECT_EQ(problem.counts.failed_solves, 0);
+    EXPECT_LE(problem.counts.accepted_steps + problem.counts.rejected_steps, 40);
+    stiffness.push_back(recorder.phases.back().measurement.normal_force / left);
+  }
+  EXPECT_NEAR(stiffness[1] / stiffness[0], 1, 5e-3); // measured without gap: 1.1e-3 between 1e-2 and 1e-4 mm
+  EXPECT_NEAR(stiffness[2] / stiffness[1], 1, 1e-3);
+}
+
+/// In the linear limit N is proportional to the travel, T to N, and the steps are those of any other travel.
+TEST(gap, TinyTravelsAreLinearAndTakeNoMoreSteps)
+{
+  std::array<double, 2> reference{};
+  PetscInt steps = 0;
+  for (const double travel : {1e-3, 1e-6, 1e-8, 1e-10}) {
+    Scene scene = paper_scene(4);
+    scene.bottom.radius = scene.top.radius;
+    const std::vector<double> approach(5, travel);
+    scene.schedule = schedule_from_rates({27, 3600, 4500, 5400, 6300}, approach, {0, 0, 0.01, 0.1, 1});
+    Problem problem;
+    Recorder recorder("");
+    run(scene, problem, recorder);
+    const Measurement &end = recorder.phases.back().measurement;
+    if (travel == 1e-3) {
+      reference = {end.normal_force / travel, end.torque / travel};
+      steps = problem.counts.accepted_steps + problem.counts.rejected_steps;
+    }
+    EXPECT_NEAR(end.normal_force / travel / reference[0], 1, 3e-3) << travel;
+    EXPECT_NEAR(end.torque / travel / reference[1], 1, 3e-3) << travel;
+    EXPECT_LE(problem.counts.accepted_steps + problem.counts.rejected_steps, 1.2 * steps) << travel;
   }
 }
 

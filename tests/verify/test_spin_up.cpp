@@ -118,4 +118,60 @@ TEST(spin_up, ConvergesToTheExactCurveAtSecondOrderInTimeWithSdirk2)
   expect_order_in_time(TimeRule::sdirk2, 16, 2);
 }
 
+namespace
+{
+
+/// The most by which T falls from a row to the next in the phase that begins at `start`, and by which it lies above its
+/// end.
+double largest_fall(const std::vector<HistoryRow> &rows, int phase)
+{
+  double fall = 0, before = 0;
+  for (const HistoryRow &row : rows) {
+    if (row.phase != phase) continue;
+    const double T = row.measurement.torque;
+    fall = std::max(fall, before - T);
+    before = std::max(before, T);
+  }
+  return fall;
+}
+
+} // namespace
+
+/// T rises to c omega without a peak, however much shorter than the first step its rise is: from 400 times shorter
+/// to three times longer. What may be left is a tenth of the step tolerance.
+TEST(spin_up, HasNoPeakThatAFinerStepRemoves)
+{
+  for (const double strength : {1e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3}) {
+    Scene scene = lubricated_discs(7, 3.1, 2.3, 1);
+    scene.mesh.elements_radial = 4;
+    scene.friction = {{strength}, {1}};
+    scene.time = {TimeRule::sdirk2, 0.1};
+    const double approach = 0.08 * (scene.top.height + scene.bottom.height);
+    scene.schedule = schedule_from_rates({start, start + duration}, {approach, approach}, {0, 1});
+    Problem problem;
+    Recorder recorder("");
+    run(scene, problem, recorder);
+    const double T = recorder.phases.back().measurement.torque;
+    EXPECT_LE(largest_fall(recorder.rows, 2), 1.2e-4 * T) << "b_1 = " << strength;
+    EXPECT_LE(recorder.rows.size(), 60u);
+  }
+}
+
+/// The same where the gels are viscoelastic and soft, and the friction grows with the root of the speed.
+TEST(spin_up, HasNoPeakWithSteepFriction)
+{
+  for (const double rate : {0.1, 1.0, 10.0}) {
+    Scene scene = paper_scene(4, 1);
+    for (Specimen *gel : {&scene.top, &scene.bottom})
+      gel->material = {{{0.08 / 3}, {2}, 2.7}, {{{{0.08 / 12}, {2}, 2.7}, 0.02, 1}}};
+    scene.friction = {{0.02}, {0.5}};
+    scene.schedule = schedule_from_rates({27, 600, 900}, {0.79, 0.79, 0.79}, {0, 0, rate});
+    Problem problem;
+    Recorder recorder("");
+    run(scene, problem, recorder);
+    const double T = recorder.phases.back().measurement.torque;
+    EXPECT_LE(largest_fall(recorder.rows, 3), 2e-4 * T) << rate << " rad/s";
+  }
+}
+
 } // namespace tribogel::test

@@ -41,6 +41,36 @@ TEST(steady, IsWhatTheTransientTendsTo)
   }
 }
 
+/// Friction that vanishes at rest with an infinite slope: pressed at rest the gels are those without friction; turned
+/// they are what the transient tends to.
+TEST(steady, PressesAtRestAndThenTurnsWhateverTheExponent)
+{
+  for (const double pressure_exponent : {1.0, 0.6})
+    for (const double m : {0.1, 0.5, 0.9}) {
+      Scene scene = paper_scene(3, 1);
+      scene.schedule = schedule_from_rates({27, 4000, 8000}, {0.57, 0.57, 0.57}, {0, 0.07, 0});
+      scene.schedule_kind = ScheduleKind::steady;
+      Scene slippery = scene, transient = scene;
+      slippery.friction = {};
+      scene.friction = {{0.02}, {m}, pressure_exponent};
+      transient.friction = scene.friction;
+      transient.schedule_kind = ScheduleKind::transient;
+      Problem problem, smooth, slow;
+      Recorder recorder(""), without(""), tends("");
+      run(scene, problem, recorder);
+      run(slippery, smooth, without);
+      run(transient, slow, tends);
+      const Measurement &resting = recorder.phases[0].measurement, &turning = recorder.phases[1].measurement;
+      EXPECT_NEAR(resting.normal_force / without.phases[0].measurement.normal_force, 1, 1e-6);
+      EXPECT_NEAR(resting.torque, 0, 1e-9);
+      EXPECT_NEAR(recorder.phases[2].measurement.normal_force / resting.normal_force, 1, 1e-9);
+      EXPECT_GT(turning.torque, 1);
+      EXPECT_NEAR(turning.torque / tends.phases[1].measurement.torque, 1, 1e-5) << "m " << m;
+      EXPECT_NEAR(turning.normal_force / tends.phases[1].measurement.normal_force, 1, 1e-5);
+      EXPECT_LE(recorder.rows.size(), 12u);
+    }
+}
+
 /// The order of the phases does not matter, nor what came before.
 TEST(steady, ForgetsTheWayThere)
 {

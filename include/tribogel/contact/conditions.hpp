@@ -21,6 +21,13 @@
 /// tau_s(V) in |s| is tau_s' / (tau_s' + k), between 0 and 1 and 1 at rest, so Newton's method moves from rest and C_T
 /// is even continuously differentiable at |s| = b. With tau_s = 0 it is the condition above.
 ///
+/// In a steady state the velocity is the plates' and follows nothing that is solved for: c_T is infinite. s then points
+/// against v_T and V = |v_T|, so that the condition is the law as it stands,
+///
+///     C_T = lambda_c + (b + tau_s(|v_T|)) v_T / |v_T|,    C_T = lambda_c where v_T = 0,
+///
+/// linear in lambda. (A finite c_T leaves the row of a steep law at rest empty: all that it holds is k v_T.)
+///
 /// Measured on the node on springs of tests/unit/test_conditions_steep.cpp, 1000 problems over decades of v, p and
 /// traction for each law, from rest under pressure and at first touch. With c_T from 0.1 to 2 times the spring's
 /// stiffness x time the exponents (0.1), (0.5), (0.9), (0, 0.5), (0.5, 2), (0.1, 2.5), (0, 0.5, 1, 2) never fail and
@@ -69,7 +76,7 @@ template <class T> struct ContactPoint {
 /// The conditions hold for any positive values: they set how strongly a violated one changes the status of a node.
 struct ContactScale {
   double normal;     ///< c_N, a stiffness per area [MPa/mm]
-  double tangential; ///< c_T [MPa s/mm]
+  double tangential; ///< c_T [MPa s/mm]; infinite where the velocity is given
 };
 
 template <class T> struct ContactCondition {
@@ -87,6 +94,16 @@ template <class T> T robust_norm(const Vector3<T> &v)
   return largest * sqrt(T(w.dot(w)));
 }
 
+/// tau(|v|, p) v / |v| at a given velocity, without the threshold at rest; tau = area_ratio times the law's.
+template <class T, FrictionLaw<T> Law>
+Vector3<T> drag_at(const Vector3<T> &v, const T &area_ratio, const T &cauchy, const Law &law)
+{
+  const T speed = robust_norm(v);
+  T over_speed = law.sliding(speed, cauchy).over_v;
+  if (value(speed) > 0) over_speed += (law.static_strength(cauchy).value + law.steep_stress(speed, cauchy)) / speed;
+  return area_ratio * over_speed * v;
+}
+
 /// `on_axis`: on the axis of an axisymmetric model every tangential quantity vanishes; C_T = lambda_T there.
 template <class T, FrictionLaw<T> Law>
 ContactCondition<T> contact_condition(const ContactPoint<T> &at, const ContactScale &scale, const Law &law,
@@ -102,6 +119,11 @@ ContactCondition<T> contact_condition(const ContactPoint<T> &at, const ContactSc
 
   const Vector3<T> v = at.velocity - at.velocity.dot(at.normal) * at.normal;
   const T J = law.linear_in_pressure() ? T(1) : at.area_ratio, cauchy = p / J;
+  if (std::isinf(scale.tangential)) {
+    const bool moves = value(robust_norm(v)) > 0;
+    return {lambda_T + drag_at<T>(v, J, cauchy, law) - C_N * at.normal,
+            moves ? ContactStatus::slip : ContactStatus::stick};
+  }
   const T drag = J * law.sliding(robust_norm(v), cauchy).over_v, c_T = scale.tangential;
   const bool dragged = value(drag) > 0;
   const T k = dragged ? T(c_T + drag) : c_T;
