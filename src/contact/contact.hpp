@@ -58,6 +58,14 @@ public:
   const GelContact &lower_face() const { return gels.front(); }
   double overhang() const { return gels.front().overhang; }
 
+  /// Reference place on the top gel of a facet that could not be evaluated last; empty: there was none.
+  std::optional<std::array<double, 3>> failed_at() const
+  {
+    for (const GelContact &gel : gels)
+      if (gel.failed_at) return gel.failed_at;
+    return {};
+  }
+
 private:
   MPI_Comm comm = MPI_COMM_NULL;
   std::vector<GelContact> gels;

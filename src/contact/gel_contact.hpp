@@ -71,6 +71,9 @@ public:
   /// Of the nodes that carry a multiplier, in the last evaluation of a residual or Jacobian by a single rank.
   std::vector<ContactStatus> statuses() const;
 
+  /// Reference place of a facet that could not be evaluated, of the last evaluation; the same on every rank.
+  std::optional<std::array<double, 3>> failed_at;
+
   /// Of the slave beyond the master's edge in the last evaluation, reference length or area [mm or mm^2].
   double overhang = 0;
 

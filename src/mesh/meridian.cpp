@@ -1,5 +1,7 @@
 #include "mesh/meridian.hpp"
 
+#include "mesh/split_corner.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -143,28 +145,58 @@ std::vector<MeridianBlock> meridian_blocks(const Scene &scene)
                       scene.has_top ? Side::master : Side::top_plate};
   blocks.push_back(lower);
 
-  if (scene.has_top)
+  if (scene.has_top) {
     blocks.push_back({top_body, points_between(0, scene.top.radius, false, true, s),
                       points_between(scene.initial_gap, scene.initial_gap + scene.top.height, true, true, s),
                       Side::axis, Side::wall, Side::slave, Side::top_plate});
+    blocks.back().split = split_of_lower_edge(scene, blocks.back(), zone);
+  }
   return blocks;
 }
 
 namespace
 {
 
-/// The outline's edges, in the order of the four sides.
-void name_sides(const MeridianBlock &block, int first, SerialMesh &mesh)
+/// Numbers of the grid's points in the mesh, row by row.
+class GridNumbers
 {
-  const int columns = static_cast<int>(block.R.size()), rows = static_cast<int>(block.Z.size());
-  const auto edge = [&](int a, int b, Side side) { mesh.boundary.push_back({{first + a, first + b, -1, -1}, side}); };
-  for (int i = 0; i + 1 < columns; ++i) {
-    edge(i, i + 1, block.lower);
-    edge((rows - 1) * columns + i, (rows - 1) * columns + i + 1, block.upper);
+public:
+  /// Appends the grid's points to the mesh.
+  GridNumbers(const BlockGrid &of, SerialMesh &mesh) : grid(of)
+  {
+    numbers.resize(static_cast<std::size_t>(grid.columns()) * grid.rows(), -1);
+    for (int j = 0; j < grid.rows(); ++j)
+      for (int i = 0; i < grid.columns(); ++i) {
+        if (!grid.has_point(i, j)) continue;
+        const auto [r, z] = grid.position(i, j);
+        numbers[i + j * grid.columns()] = static_cast<int>(mesh.vertex.size());
+        mesh.vertex.push_back({r, z, 0});
+      }
   }
-  for (int j = 0; j + 1 < rows; ++j) {
-    edge(j * columns, (j + 1) * columns, block.inner);
-    edge((j + 1) * columns - 1, (j + 2) * columns - 1, block.outer);
+
+  int operator()(int i, int j) const
+  {
+    const BlockGrid::Point point = grid.joined(i, j);
+    return numbers[point.i + point.j * grid.columns()];
+  }
+
+private:
+  const BlockGrid &grid;
+  std::vector<int> numbers;
+};
+
+/// The outline's edges, in the order of the four sides.
+void name_sides(const MeridianBlock &block, const BlockGrid &grid, const GridNumbers &number, SerialMesh &mesh)
+{
+  const int right = grid.columns() - 1, top = grid.rows() - 1;
+  const auto edge = [&](int a, int b, Side side) { mesh.boundary.push_back({{a, b, -1, -1}, side}); };
+  for (int i = 0; i < right; ++i) {
+    if (grid.has_cell(i, 0)) edge(number(i, 0), number(i + 1, 0), block.lower);
+    edge(number(i, top), number(i + 1, top), block.upper);
+  }
+  for (int j = 0; j < top; ++j) {
+    edge(number(0, j), number(0, j + 1), block.inner);
+    if (grid.has_cell(right - 1, j)) edge(number(right, j), number(right, j + 1), block.outer);
   }
 }
 
@@ -174,17 +206,15 @@ SerialMesh serial_mesh(const std::vector<MeridianBlock> &blocks)
 {
   SerialMesh mesh;
   for (const MeridianBlock &block : blocks) {
-    const int first = static_cast<int>(mesh.vertex.size()), columns = static_cast<int>(block.R.size());
-    for (const double z : block.Z)
-      for (const double r : block.R) mesh.vertex.push_back({r, z, 0});
-    for (int j = 0; j + 1 < static_cast<int>(block.Z.size()); ++j)
-      for (int i = 0; i + 1 < columns; ++i) {
-        const int corner = first + j * columns + i;
-        mesh.cell.push_back({{corner, corner + 1, corner + columns, corner + columns + 1, -1, -1, -1, -1},
-                             block.body,
-                             0.5 * (block.R[i] + block.R[i + 1])});
-      }
-    name_sides(block, first, mesh);
+    const BlockGrid grid(block);
+    const GridNumbers number(grid, mesh);
+    for (int j = 0; j + 1 < grid.rows(); ++j)
+      for (int i = 0; i + 1 < grid.columns(); ++i)
+        if (grid.has_cell(i, j))
+          mesh.cell.push_back({{number(i, j), number(i + 1, j), number(i, j + 1), number(i + 1, j + 1), -1, -1, -1, -1},
+                               block.body,
+                               0.5 * (block.R[i] + block.R[i + 1])});
+    name_sides(block, grid, number, mesh);
     if (const auto shape = block.shape)
       mesh.shape[block.body] = [shape](const std::array<double, 3> &X) {
         const auto [R, Z] = shape(X[0], X[1]);

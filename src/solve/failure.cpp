@@ -3,6 +3,8 @@
 
 #include "solve/problem.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace tribogel
@@ -36,7 +38,65 @@ PetscErrorCode DescribeLinearFailure(SNES snes, std::string &words)
   PetscFunctionReturn(0);
 }
 
+enum class Region { bonded_rim, contact_edge, contact_face, wall, inside };
+
+/// The nearest part of the body's surface; its edges reach over a quarter of its height, half an element at least.
+Region region_of(const Scene &scene, const FailurePlace &place)
+{
+  const bool solid = scene.model == Model::solid, top = place.body == top_body;
+  const Specimen &gel = top ? scene.top : scene.bottom;
+  const double z = place.X[solid ? 2 : 1], contact = top ? scene.initial_gap : 0;
+  const double from_wall = gel.radius - (solid ? std::hypot(place.X[0], place.X[1]) : place.X[0]);
+  const double from_face = std::abs(z - contact), from_plate = std::abs(gel.height - from_face);
+  const double element = (scene.has_top ? scene.top : scene.bottom).radius / scene.mesh.elements_radial;
+  const double across = std::max(0.25 * gel.height, 0.5 * element);
+  const double upwards = std::clamp(0.5 * element, 0.25 * gel.height, 0.5 * gel.height);
+  const bool bonded = std::min(from_plate, scene.has_top ? from_plate : from_face) <= upwards;
+  const bool at_contact = scene.has_top && from_face <= upwards;
+  if (from_wall <= across) return bonded ? Region::bonded_rim : at_contact ? Region::contact_edge : Region::wall;
+  return at_contact ? Region::contact_face : Region::inside;
+}
+
 } // namespace
+
+std::string describe_end(const Scene &scene, const FailurePlace &place, double compression)
+{
+  if (!scene.round) return "";
+  const bool top = place.body == top_body;
+  const std::string gel = top ? "top gel" : "bottom gel";
+  std::ostringstream text;
+  text << "This is ";
+  switch (region_of(scene, place)) {
+  case Region::bonded_rim:
+    text << "the rim where the " << gel << " is bonded to its plate: the gel bulges there and its side wall folds onto "
+         << "the plate";
+    break;
+  case Region::contact_edge:
+    text << "the " << (top ? "lower" : "upper") << " edge of the " << gel
+         << ", between its contact face and its side wall, which rolls over and folds";
+    break;
+  case Region::contact_face:
+    text << "the contact face of the " << gel << ", away from its edge, which wrinkles and folds";
+    break;
+  case Region::wall:
+    text << "the side wall of the " << gel << ", which bulges and folds";
+    break;
+  case Region::inside:
+    text << "inside the " << gel;
+    break;
+  }
+  if (compression > 0) {
+    text.precision(3);
+    text << "; the gels are compressed by " << 100 * compression << " % of their height";
+  }
+  text
+      << ". What may help: less compression or thicker gels, less friction, longer edges at the rims (-mesh_grading 4)";
+  const double height = scene.has_top ? std::min(scene.top.height, scene.bottom.height) : scene.bottom.height;
+  const double radius = (scene.has_top ? scene.top : scene.bottom).radius;
+  if (const double enough = std::ceil(2 * radius / height); scene.mesh.elements_radial < enough)
+    text << ", and elements of at most half of the thinner gel's height (-elements_radial " << enough << ")";
+  return text.str();
+}
 
 PetscErrorCode Problem::Diagnose(SNES snes, StepFailure &failure) const
 {
@@ -48,9 +108,11 @@ PetscErrorCode Problem::Diagnose(SNES snes, StepFailure &failure) const
     failure.kind =
         bulk_failure.status == PointStatus::inverted ? FailureKind::inverted_element : FailureKind::maxwell_update;
     text << describe(bulk_failure);
+    failure.place = {bulk_failure.body, bulk_failure.X};
   } else if (!contact_failure.empty()) {
     failure.kind = FailureKind::contact_search;
     text << contact_failure;
+    if (const auto X = contact->failed_at()) failure.place = {top_body, *X};
   } else if (reason == SNES_DIVERGED_LINEAR_SOLVE) {
     failure.kind = FailureKind::linear_solver;
     PetscCall(DescribeLinearFailure(snes, failure.words));
@@ -63,6 +125,7 @@ PetscErrorCode Problem::Diagnose(SNES snes, StepFailure &failure) const
     text << "Newton's " << (worst.group >= 0 ? group_names(mesh.dim)[worst.group] : "residual") << " stays at "
          << worst.ratio << " times its tolerance near " << describe_place(mesh.dim, worst.X) << " of the "
          << (worst.body == top_body ? "top" : "bottom") << " gel";
+    if (worst.group >= 0) failure.place = {worst.body, worst.X};
   }
   failure.words = text.str();
   PetscFunctionReturn(0);

@@ -397,6 +397,12 @@ std::string Problem::Explain(TSConvergedReason reason) const
     text << "no step from t = " << state.time << " s (phase " << state.phase + 1 << ") succeeds, however small";
   if (!last_failure.words.empty()) text << ": " << last_failure.words;
   text << " (" << TSConvergedReasons[reason] << ")";
+  if (last_failure.place) {
+    const double height = scene.bottom.height + (scene.has_top ? scene.top.height : 0);
+    const double approach = -frames(state.time, 1).top_travel - scene.initial_gap;
+    if (const std::string end = describe_end(scene, *last_failure.place, approach / height); !end.empty())
+      text << ". " << end;
+  }
   return text.str();
 }
 
