@@ -160,7 +160,10 @@ PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
     PetscFunctionBeginUser;
     PetscCall(WriteSummary(comm, directory, problem, recorder, outcome, cost, resolved_options(input), input.warnings,
                            estimate, complaint));
-    if (!complaint.empty()) outcome.fail(complaint);
+    if (!complaint.empty())
+      outcome.fail(
+          complaint +
+          (completed ? "; the run's other files are whole, and -restart " + directory + " writes it again" : ""));
     PetscFunctionReturn(0);
   };
   PetscCall(write(nullptr));

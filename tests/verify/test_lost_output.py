@@ -148,8 +148,13 @@ class LostOutput(unittest.TestCase):
         (self.folder / "summary" / "summary.json.part" / "mine").touch()
         done = self.run_program(["-restart", "summary", "-wall_time", "100"])
         self.assertEqual(done.returncode, 3, done.stderr)
-        self.assertIn(f"summary/summary.json.part: {os.strerror(errno.EISDIR)}", done.stderr)
+        self.assertIn(f"summary/summary.json.part: {os.strerror(errno.EISDIR)}; the run's other files are whole", done.stderr)
         self.assertEqual(len(rows_of(self.folder / "summary")), 91)
+        (self.folder / "summary" / "summary.json.part" / "mine").unlink()
+        (self.folder / "summary" / "summary.json.part").rmdir()
+        done = self.run_program(["-restart", "summary"])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads((self.folder / "summary" / "summary.json").read_text())["status"], 0)
 
     def test_standard_output(self):
         with open("/dev/full", "w", encoding="utf-8") as full:
