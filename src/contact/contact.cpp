@@ -97,6 +97,7 @@ PetscErrorCode Contact::AddResidual(const PlateFrames &frames, const double *U, 
                                     double *magnitude, std::string &failure)
 {
   PetscFunctionBeginUser;
+  for (GelContact &gel : gels) gel.failed_at.reset();
   for (GelContact &gel : gels)
     if (failure.empty()) PetscCall(gel.AddResidual(frames, U, Udot, F, magnitude, failure));
   for (const PlateContact &plate : plates) plate.AddResidual(frames, U, F, magnitude);
@@ -107,6 +108,7 @@ PetscErrorCode Contact::AddJacobian(const PlateFrames &frames, const double *U, 
                                     std::string &failure)
 {
   PetscFunctionBeginUser;
+  for (GelContact &gel : gels) gel.failed_at.reset();
   for (GelContact &gel : gels)
     if (failure.empty()) PetscCall(gel.AddJacobian(frames, U, Udot, shift, A, failure));
   for (const PlateContact &plate : plates) PetscCall(plate.AddJacobian(frames, U, A));

@@ -178,7 +178,6 @@ PetscErrorCode GelContact::ShareFailure(const MortarReport &report, std::string 
     int status, facet;
   } worst{static_cast<int>(report.status), report.failed.empty() ? 0 : report.failed.front()};
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_2INT, MPI_MAXLOC, comm));
-  failed_at.reset();
   if (worst.status == static_cast<int>(MortarStatus::ok)) PetscFunctionReturn(0);
   const auto &facet = slave.facet[static_cast<std::size_t>(worst.facet)];
   failed_at = slave.node[facet[0]].X;
