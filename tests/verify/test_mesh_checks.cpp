@@ -75,6 +75,7 @@ TEST(mesh_checks, SayWhichPartsAreNotJoined)
   SerialMesh digits = halves; // as a file of seven digits has it
   for (std::size_t v = 0; v < digits.vertex.size(); ++v) digits.vertex[v][0] += v % 3 * 1e-6;
   expect_refused(judged(digits), {"of bottom lie on other faces of it", "(24, e.g."});
+  expect_refused(judged(apart({slab(-3, 0, -2, 0), slab(0.0005, 3, -2, 0), upper})), {"lie on other faces of it"});
   expect_warned(judged(apart({slab(-3, 0, -2, 0), slab(0.01, 3, -2, 0), upper})), {"(24, e.g.", "a slit whose sides"});
   expect_taken(judged(apart({slab(-3, 0, -2, 0), slab(0.5, 3, -2, 0), upper}))); // two gels on one plate
 }
