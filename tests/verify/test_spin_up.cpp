@@ -121,8 +121,7 @@ TEST(spin_up, ConvergesToTheExactCurveAtSecondOrderInTimeWithSdirk2)
 namespace
 {
 
-/// The most by which T falls from a row to the next in the phase that begins at `start`, and by which it lies above its
-/// end.
+/// The most by which T lies below an earlier value of the phase.
 double largest_fall(const std::vector<HistoryRow> &rows, int phase)
 {
   double fall = 0, before = 0;
