@@ -18,6 +18,18 @@ namespace tribogel
 /// Gauss points in each direction of a slave facet.
 template <int order> inline constexpr int element_points = order + 3;
 
+/// How far beyond a facet a point is, where 1 is the end of its extension, or half of its width; less than 0 inside.
+inline double beyond_facet(const std::array<double, 2> &eta, const EdgeExtension &extension)
+{
+  double farthest = -1;
+  for (int side = 0; side < 4; ++side) {
+    const double past = (side % 2 == 0 ? -1 : 1) * eta[side / 2] - 1,
+                 end = std::max(extension[side][0], extension[side][1]);
+    farthest = std::max(farthest, past > 0 && end > 0 ? past / end : past);
+  }
+  return farthest;
+}
+
 /// One result for each of `pairs`, which hold the same slave data; a point that hits none makes the facet uncovered
 /// (sum of `covered` < 4).
 template <int order>
@@ -38,12 +50,12 @@ std::vector<QuadPairMortar<order>> quad_element_mortar(const QuadMeasure<order> 
   for (int q = 0; q < points * points; ++q) {
     const double weight = rule.weight[q % points] * rule.weight[q / points];
     typename quad_mortar::Point<order>::Meeting hit;
-    double nearest = edge_extension; // beyond the facet, in eta; less than 0 inside
+    double nearest = 1; // as beyond_facet has it
     std::size_t which = pairs.size();
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const auto meeting = at[k].meet({rule.point[q % points], rule.point[q / points]});
       if (!meeting.found || !meeting.from_front) continue;
-      const double beyond = std::max(std::abs(meeting.eta[0]), std::abs(meeting.eta[1])) - 1;
+      const double beyond = beyond_facet(meeting.eta, pairs[k].beyond);
       if (beyond > nearest) continue;
       nearest = beyond;
       which = k;

@@ -177,6 +177,10 @@ template <int order> QuadMeasure<order> quad_measure(const QuadPoints<order> &X)
   return facet;
 }
 
+/// How far a facet goes on beyond its sides xi = -1, xi = 1, eta = -1, eta = 1, in xi, at either end of each side; 0
+/// where the side is not the surface's edge.
+using EdgeExtension = std::array<std::array<double, 2>, 4>;
+
 /// A surface in its undeformed state.
 struct QuadReference {
   std::vector<Vector3<double>> X;         ///< of each node [mm]

@@ -23,10 +23,6 @@
 namespace tribogel
 {
 
-/// Points of a master facet's sides beyond its corners in parameter space: 1 for order 1, 2 (the midside node) for
-/// order 2.
-template <int order> inline constexpr int outline_chords = order;
-
 /// The master's outline is first cut to the slave facet's, so many times as wide, in the coordinates of QuadFrame:
 /// points far from a distorted facet have no projection.
 inline constexpr double outline_margin = 1.1;
@@ -103,30 +99,39 @@ private:
     return !apart && area_of(polygon) < 0; // out of the master is into the slave: its outline runs clockwise
   }
 
-  /// Points at fixed eta.
+  /// Points at fixed eta: corners, nodes of the sides, and where an extension begins.
   void outline()
   {
-    constexpr int chords = outline_chords<order>;
-    std::array<double, 4> end{-1, 1, -1, 1};
-    for (int side = 0; side < 4; ++side)
-      if (pair.on_edge[side]) end[side] += side % 2 == 0 ? -edge_extension : edge_extension;
-    const double corner[5][2] = {
-        {end[0], end[2]}, {end[1], end[2]}, {end[1], end[3]}, {end[0], end[3]}, {end[0], end[2]}};
+    const EdgeExtension &beyond = pair.beyond;
+    const double corner[5][2] = {{-1 - beyond[0][0], -1 - beyond[2][0]},
+                                 {1 + beyond[1][0], -1 - beyond[2][1]},
+                                 {1 + beyond[1][1], 1 + beyond[3][1]},
+                                 {-1 - beyond[0][1], 1 + beyond[3][0]},
+                                 {-1 - beyond[0][0], -1 - beyond[2][0]}};
     places.clear();
-    for (int side = 0; side < 4; ++side)
-      for (int k = 0; k < chords; ++k) {
-        const double t = static_cast<double>(k) / chords;
-        const auto shape = quad_shape<order>(
-            {(1 - t) * corner[side][0] + t * corner[side + 1][0], (1 - t) * corner[side][1] + t * corner[side + 1][1]});
-        Place place;
-        place.at = interpolate(shape.N, pair.y);
-        if (with_derivatives) {
-          place.d.setZero();
-          for (int m = 0; m < nodes; ++m)
-            place.d.template middleCols<3>(3 * (2 * nodes + m)).diagonal().setConstant(shape.N[m]);
-        }
-        places.push_back(std::move(place));
+    for (int side = 0; side < 4; ++side) {
+      const double *const from = corner[side], *const to = corner[side + 1];
+      add_place({from[0], from[1]});
+      const int along = side % 2;
+      for (int k = 0; k <= order; ++k) {
+        const double node = (side < 2 ? 1 : -1) * (2.0 * k / order - 1);
+        const double t = (node - from[along]) / (to[along] - from[along]);
+        if (t > 0 && t < 1) add_place({(1 - t) * from[0] + t * to[0], (1 - t) * from[1] + t * to[1]});
       }
+    }
+  }
+
+  void add_place(const std::array<double, 2> &eta)
+  {
+    const auto shape = quad_shape<order>(eta);
+    Place place;
+    place.at = interpolate(shape.N, pair.y);
+    if (with_derivatives) {
+      place.d.setZero();
+      for (int m = 0; m < nodes; ++m)
+        place.d.template middleCols<3>(3 * (2 * nodes + m)).diagonal().setConstant(shape.N[m]);
+    }
+    places.push_back(std::move(place));
   }
 
   /// d l / d (the slave facet's positions) of its node b.

@@ -15,13 +15,10 @@
 namespace tribogel
 {
 
-/// How far a master facet is extended beyond a side that is the surface's edge, in eta (the facet has length 2).
-inline constexpr double edge_extension = 1;
-
 template <int order> struct QuadPair {
-  QuadPoints<order> x, n, y;     ///< slave positions and normals, master positions
-  std::array<bool, 4> on_edge{}; ///< sides of the master facet that are extended
-  double neighbourhood = 1;      ///< the master's outline is cut to the slave's, at least so many times as wide
+  QuadPoints<order> x, n, y; ///< slave positions and normals, master positions
+  EdgeExtension beyond{};    ///< of the master facet
+  double neighbourhood = 1;  ///< the master's outline is cut to the slave's, at least so many times as wide
 };
 
 template <int order> struct QuadPairMortar {
@@ -200,8 +197,10 @@ private:
 
   bool is_beyond_edge(const std::array<double, 2> &eta) const
   {
-    return (pair.on_edge[0] && eta[0] < -1) || (pair.on_edge[1] && eta[0] > 1) || (pair.on_edge[2] && eta[1] < -1) ||
-           (pair.on_edge[3] && eta[1] > 1);
+    const auto passed = [&](int side) { return (side % 2 == 0 ? -1 : 1) * eta[side / 2] > 1; };
+    for (int side = 0; side < 4; ++side)
+      if (pair.beyond[side][0] > 0 && passed(side)) return true;
+    return false;
   }
 };
 

@@ -257,7 +257,7 @@ void SolidContact::integrate(int f, std::span<const std::pair<int, int>> pairs, 
   std::vector<QuadPair<order>> all;
   for (const auto &[slave, master] : pairs) {
     pair.y = geometry.master_surface.on_facet<order>(master, placed.y);
-    pair.on_edge = geometry.master_surface.on_edge[master];
+    pair.beyond = geometry.beyond[master];
     if (geometry.exact_cells)
       keep(master, quad_pair_mortar<order>(measure, pair, derivatives));
     else

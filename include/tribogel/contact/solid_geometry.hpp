@@ -25,6 +25,34 @@ struct SolidParameters {
   std::vector<double> neighbourhood = {}; ///< of each slave facet, as in QuadPair; empty: 1
 };
 
+/// A surface goes on beyond its edge, at each node there by half the longest of its sides that meet in that node:
+/// however narrow the edge's facets are, and by the same length for both facets that share the side which leads to it.
+inline std::vector<EdgeExtension> edge_extensions(const QuadSurface &surface, const std::vector<Vector3<double>> &X)
+{
+  const auto length = [&](int f, int side) {
+    const auto [a, b] = surface.ends(f, side);
+    return (X[a] - X[b]).norm();
+  };
+  std::vector<double> longest(X.size(), 0); // side of the edge at each node
+  for (int f = 0; f < surface.facet_count(); ++f)
+    for (int side = 0; side < 4; ++side)
+      if (surface.on_edge[f][side])
+        for (const int node : surface.ends(f, side)) longest[node] = std::max(longest[node], length(f, side));
+  std::vector<EdgeExtension> beyond(surface.facets.size(), EdgeExtension{});
+  for (int f = 0; f < surface.facet_count(); ++f)
+    for (int side = 0; side < 4; ++side) {
+      if (!surface.on_edge[f][side]) continue;
+      const std::vector<int> along = surface.nodes_along(side);
+      for (const int end : {0, 1}) { // 1 is half a facet
+        const int node = surface.facets[f][end == 0 ? along.front() : along.back()],
+                  leads_here = (side < 2 ? 2 : 0) + end;
+        const double own = length(f, leads_here);
+        beyond[f][side][end] = std::max(own, longest[node]) / own;
+      }
+    }
+  return beyond;
+}
+
 struct SolidGeometry {
   using Measures = std::variant<std::vector<QuadMeasure<1>>, std::vector<QuadMeasure<2>>>;
 
@@ -36,13 +64,15 @@ struct SolidGeometry {
   bool exact_cells = true;      ///< as in SolidParameters
 
   std::vector<double> neighbourhood; ///< as in SolidParameters
+  std::vector<EdgeExtension> beyond; ///< of the master facets
 
   SolidGeometry() = default;
   SolidGeometry(QuadReference slave_face, QuadReference master_face, const SolidParameters &parameters)
       : slave(std::move(slave_face)), master(std::move(master_face)),
         slave_surface(slave.facets, parameters.order, static_cast<int>(slave.X.size()), parameters.left_out),
         master_surface(master.facets, parameters.order, static_cast<int>(master.X.size())), nodes(slave.X.size()),
-        exact_cells(parameters.exact_cells), neighbourhood(parameters.neighbourhood)
+        exact_cells(parameters.exact_cells), neighbourhood(parameters.neighbourhood),
+        beyond(edge_extensions(master_surface, master.X))
   {
     if (parameters.order == 1)
       measure_facets<1>(parameters);
