@@ -16,7 +16,8 @@ struct PlateFrames {
   double top_rotation = 0;          ///< [rad]
   double bottom_rotation = 0;       ///< [rad]
   std::array<double, 2> top_axis{}; ///< where the top plate's axis stands, the bottom's at (0, 0) [mm]
-  double step = 1; ///< of time [s]: what turns a sliding velocity into a distance; infinite in a steady state
+  double step =
+      1; ///< of time [s]: what turns a sliding velocity into a distance; infinite in steady states of the half plane
 };
 
 /// What a plate does to a gel, in the frame of the gel's unknowns; the moment is about that frame's origin, at the

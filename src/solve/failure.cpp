@@ -65,26 +65,31 @@ std::string describe_end(const Scene &scene, const FailurePlace &place, double c
   const bool top = place.body == top_body;
   const std::string gel = top ? "top gel" : "bottom gel";
   std::ostringstream text;
+  const char *how = "";
   text << "This is ";
   switch (region_of(scene, place)) {
   case Region::bonded_rim:
-    text << "the rim where the " << gel << " is bonded to its plate: the gel bulges there and its side wall folds onto "
-         << "the plate";
+    text << "the rim where the " << gel << " is bonded to its plate";
+    how = ": the gel bulges there and its side wall folds onto the plate";
     break;
   case Region::contact_edge:
     text << "the " << (top ? "lower" : "upper") << " edge of the " << gel
-         << ", between its contact face and its side wall, which rolls over and folds";
+         << ", between its contact face and its side wall";
+    how = ", which rolls over and folds";
     break;
   case Region::contact_face:
-    text << "the contact face of the " << gel << ", away from its edge, which wrinkles and folds";
+    text << "the contact face of the " << gel << ", away from its edge";
+    how = ", which wrinkles and folds";
     break;
   case Region::wall:
-    text << "the side wall of the " << gel << ", which bulges and folds";
+    text << "the side wall of the " << gel;
+    how = ", which bulges and folds";
     break;
   case Region::inside:
     text << "inside the " << gel;
     break;
   }
+  if (place.folds) text << how;
   if (compression > 0) {
     text.precision(3);
     text << "; the gels are compressed by " << 100 * compression << " % of their height";
@@ -108,7 +113,7 @@ PetscErrorCode Problem::Diagnose(SNES snes, StepFailure &failure) const
     failure.kind =
         bulk_failure.status == PointStatus::inverted ? FailureKind::inverted_element : FailureKind::maxwell_update;
     text << describe(bulk_failure);
-    failure.place = {bulk_failure.body, bulk_failure.X};
+    failure.place = {bulk_failure.body, bulk_failure.X, bulk_failure.status == PointStatus::inverted};
   } else if (!contact_failure.empty()) {
     failure.kind = FailureKind::contact_search;
     text << contact_failure;
@@ -125,7 +130,7 @@ PetscErrorCode Problem::Diagnose(SNES snes, StepFailure &failure) const
     text << "Newton's " << (worst.group >= 0 ? group_names(mesh.dim)[worst.group] : "residual") << " stays at "
          << worst.ratio << " times its tolerance near " << describe_place(mesh.dim, worst.X) << " of the "
          << (worst.body == top_body ? "top" : "bottom") << " gel";
-    if (worst.group >= 0) failure.place = {worst.body, worst.X};
+    if (worst.group >= 0) failure.place = {worst.body, worst.X, false};
   }
   failure.words = text.str();
   PetscFunctionReturn(0);

@@ -22,6 +22,7 @@ using FailureCounts = std::array<int, failure_kinds>;
 struct FailurePlace {
   int body;
   std::array<double, 3> X; ///< (R, Z, 0) or (x, y, z) [mm]
+  bool folds = true;       ///< an element or a facet turned over there; otherwise forces did not balance
 };
 
 struct StepFailure {

@@ -154,7 +154,8 @@ PlateFrames Problem::frames(double time, double step) const
   frames.bottom_rotation = scene.bottom_plate_rate * time;
   frames.top_axis = scene.misalignment.offset;
   if (step > 0) frames.step = step;
-  if (steady()) frames.step = std::numeric_limits<double>::infinity();
+  // In space a node near the axis may lie on either side of it, and its velocity turns round: what holds it is stick.
+  if (steady() && mesh.dim == 2) frames.step = std::numeric_limits<double>::infinity();
   return frames;
 }
 

@@ -21,8 +21,8 @@
 /// tau_s(V) in |s| is tau_s' / (tau_s' + k), between 0 and 1 and 1 at rest, so Newton's method moves from rest and C_T
 /// is even continuously differentiable at |s| = b. With tau_s = 0 it is the condition above.
 ///
-/// In a steady state the velocity is the plates' and follows nothing that is solved for: c_T is infinite. s then points
-/// against v_T and V = |v_T|, so that the condition is the law as it stands,
+/// In a steady state of the half plane the direction of the velocity is that of the plates: c_T is infinite. s then
+/// points against v_T and V = |v_T|, so that the condition is the law as it stands,
 ///
 ///     C_T = lambda_c + (b + tau_s(|v_T|)) v_T / |v_T|,    C_T = lambda_c where v_T = 0,
 ///

@@ -26,7 +26,8 @@ template <class T> struct ContactState {
   std::array<double, 2> slave_axis{}; ///< where the slave's plate turns about z, the master's about (0, 0) [mm]
   double shift = 1;                   ///< d rate / d u of the time rule [1/s], for the Jacobian only
   /// Sets c_T = c_N / stick_rate [1/s], say 1/dt. It is part of the equation: the residual and the Jacobian of one step
-  /// must be given the same value. 0 in a steady state, where the velocity is the plates' and u has no part in it.
+  /// must be given the same value. 0 where the velocity is given: steady states of the
+  /// half plane.
   double stick_rate = 1;
 };
 
