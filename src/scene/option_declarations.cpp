@@ -82,7 +82,7 @@ OptionGroup geometry_group()
         .meaning = "side walls may touch, not penetrate, the plates; the top gel's may roll onto the bottom "
                    "gel",
         .source = "own"}}};
-  group.options[0].rule = "not larger than -bottom_radius: the slave surface lies inside the master surface";
+  group.options[0].rule = "not larger than -bottom_radius: the face of the top gel lies on that of the bottom gel";
   group.options[4].range = non_negative;
   return group;
 }

@@ -89,7 +89,7 @@ std::string describe_end(const Scene &scene, const FailurePlace &place, double c
     text << "inside the " << gel;
     break;
   }
-  if (place.folds) text << how;
+  if (*how) text << (place.folds ? how : ", which may be about to fold");
   if (compression > 0) {
     text.precision(3);
     text << "; the gels are compressed by " << 100 * compression << " % of their height";
