@@ -16,7 +16,7 @@ struct FrictionCheck {
   double at_radius = 0; ///< of that node, now [mm]
   double at_speed = 0;  ///< its speed [mm/s]
   double fastest = 0;   ///< sliding speed [mm/s]
-  double weakening = 0; ///< largest -d tau/d v over what the gels' stiffness holds in a step [1]
+  double growth = 0;    ///< in which a disturbance of the sliding grows e-fold, the longest time; 0: none grows [s]
 };
 
 /// Tangential stiffness of the two gels in series, sheared as a whole: the softest way in which all nodes can slide
@@ -27,17 +27,18 @@ double shear_stiffness(const Scene &scene)
   return 1 / (compliance(scene.top) + compliance(scene.bottom));
 }
 
-FrictionCheck look(const Scene &scene, const ContactResults &results, double step)
+/// Without inertia k dx = -tau'(v) dv at a node that slides: where tau falls, dx grows with the time -tau'/k.
+FrictionCheck look(const Scene &scene, const ContactResults &results)
 {
   FrictionCheck found;
-  const double holds = step * shear_stiffness(scene);
+  const double stiffness = shear_stiffness(scene);
   for (const SurfaceResults &surface : results.surfaces)
     for (std::size_t a = 0; a < surface.nodes.size(); ++a) {
       const NodeResult &node = surface.nodes[a];
       if (!node.carries || node.status != ContactStatus::slip || !(node.pressure > 0)) continue;
       const double v = node.velocity.norm(), mu = scene.friction.coefficient(v, node.pressure);
       found.fastest = std::max(found.fastest, v);
-      found.weakening = std::max(found.weakening, -scene.friction.sliding(v, node.pressure).d_v / holds);
+      found.growth = std::max(found.growth, -scene.friction.sliding(v, node.pressure).d_v / stiffness);
       if (mu < found.lowest) {
         found.lowest = mu;
         found.at_speed = v;
@@ -66,10 +67,20 @@ std::string about_speed(const FrictionCheck &found, double time, double highest)
   return text.str();
 }
 
+std::string about_instability(const FrictionCheck &found, double time)
+{
+  std::ostringstream text;
+  text << "t = " << time << " s: friction falls with the speed where the gels slide: steady sliding is unstable, a "
+       << "disturbance grows e-fold in " << found.growth
+       << " s, and steps longer than that do not show it. N and T are those of undisturbed sliding, but such an "
+          "interface sticks and slips for itself";
+  return text.str();
+}
+
 std::string about_weakening(const FrictionCheck &found, double time, double step)
 {
   std::ostringstream text;
-  text << "t = " << time << " s: friction falls with the speed " << found.weakening
+  text << "t = " << time << " s: friction falls with the speed " << found.growth / step
        << " times faster than the gels' stiffness can hold over a step of " << step
        << " s: the sliding state is not unique and what follows is one of several. Such an interface sticks and slips "
           "for itself; a law with a rising branch at the speeds in question, lower rates or a stiffer specimen avoid "
@@ -107,15 +118,19 @@ PetscErrorCode Problem::CheckFriction()
   PetscCall(DMRestoreLocalVector(mesh.dm, &Udot));
   PetscCall(DMRestoreLocalVector(mesh.dm, &U));
 
-  const FrictionCheck found = look(scene, results, steady() ? 0 : state.step);
+  const FrictionCheck found = look(scene, results);
+  const bool turned = state.time == phase().end_time && phase().rate != scene.bottom_plate_rate;
   if (found.lowest < 0) stop_reason = about_negative_friction(found, state.time);
   if (scene.friction_speeds && found.fastest > (*scene.friction_speeds)[1] && !told.beyond_speeds) {
     told.beyond_speeds = true;
     PetscCall(Notify(about_speed(found, state.time, (*scene.friction_speeds)[1])));
   }
-  if (found.weakening > 1 && !told.not_unique) {
+  if (found.growth > state.step && !told.not_unique) {
     told.not_unique = true;
     PetscCall(Notify(about_weakening(found, state.time, state.step)));
+  } else if (found.growth > 0 && turned && !told.not_unique && !told.unstable) {
+    told.unstable = true;
+    PetscCall(Notify(about_instability(found, state.time)));
   }
   PetscFunctionReturn(0);
 }

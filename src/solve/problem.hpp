@@ -205,7 +205,7 @@ private:
 
   /// What has been told and is not told again.
   struct {
-    bool beyond_speeds = false, not_unique = false;
+    bool beyond_speeds = false, not_unique = false, unstable = false;
     int ended_early = -1; ///< phase
   } told;
 
