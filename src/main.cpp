@@ -92,40 +92,65 @@ PetscErrorCode RefuseImpossibleStart(Problem &problem, SceneInput &input)
   PetscFunctionReturn(0);
 }
 
+int status_of(const Problem &problem, bool completed)
+{
+  if (completed) return exit_status::completed;
+  return problem.stop_request.empty() ? exit_status::cannot_go_on : exit_status::stopped_on_request;
+}
+
+/// What a run is made of before it begins.
+struct Prepared {
+  std::string old_directory; ///< that is continued; empty: none
+  StoredRun stored;
+  SceneInput input;
+  SerialMesh from_file; ///< for companions; without -mesh_file empty
+  std::string digest;   ///< of the mesh
+  Problem problem;
+};
+
+/// Options -> scene -> mesh, bulk, contact.
+PetscErrorCode Prepare(MPI_Comm comm, HelpRequest help, const OptionSources &sources, Prepared &run)
+{
+  SerialMesh mesh;
+  SceneInput &input = run.input;
+  PetscFunctionBeginUser;
+  PetscCall(ReadRestart(run.old_directory));
+  const bool continues = !run.old_directory.empty();
+  if (continues) {
+    PetscCall(ReadStoredRun(comm, run.old_directory, run.stored));
+    PetscCall(AdoptOptions(run.stored.options));
+  }
+  PetscCall(ReadScene(sources, input));
+  if (help == HelpRequest::none) PetscCall(CheckOutputDirectory(comm, input.scene.output));
+  PetscCall(MakeMesh(comm, input, mesh));
+  const bool from_file = !input.mesh_file.empty();
+  if (from_file) run.from_file = mesh;
+  run.digest = digest_of(mesh, from_file);
+  if (continues) {
+    expect_unchanged(input, run.stored.options);
+    PetscCall(ExpectSameMesh(comm, run.stored, run.digest,
+                             from_file ? "-mesh_file = " + input.mesh_file : "-restart = " + run.old_directory));
+  }
+  PetscCall(run.problem.SetUp(comm, input.scene, std::move(mesh)));
+  PetscCall(run.problem.ProbeSolver());
+  PetscCall(RefuseImpossibleStart(run.problem, input));
+  PetscFunctionReturn(0);
+}
+
 /// Options -> scene -> mesh, bulk, contact -> TS -> observers -> files.
 PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
 {
   const MPI_Comm comm = PETSC_COMM_WORLD;
   const double start = MPI_Wtime();
-  StoredRun stored;
-  SceneInput input;
-  SerialMesh mesh;
-  Problem problem;
+  Prepared prepared;
   RunOutcome outcome;
   RunCost cost;
-  std::string petsc_help, old_directory;
+  std::string petsc_help;
   bool completed;
   PetscFunctionBeginUser;
-  PetscCall(ReadRestart(old_directory));
-  const bool continues = !old_directory.empty();
-  if (continues) {
-    PetscCall(ReadStoredRun(comm, old_directory, stored));
-    PetscCall(AdoptOptions(stored.options));
-  }
-  PetscCall(ReadScene(sources, input));
-  if (help == HelpRequest::none) PetscCall(CheckOutputDirectory(comm, input.scene.output));
-  PetscCall(MakeMesh(comm, input, mesh));
-  const SerialMesh from_file = input.mesh_file.empty() ? SerialMesh{} : mesh; // for companions
-  const std::string digest = digest_of(mesh, !input.mesh_file.empty());
-  if (continues) {
-    expect_unchanged(input, stored.options);
-    PetscCall(
-        ExpectSameMesh(comm, stored, digest,
-                       input.mesh_file.empty() ? "-restart = " + old_directory : "-mesh_file = " + input.mesh_file));
-  }
-  PetscCall(problem.SetUp(comm, input.scene, std::move(mesh)));
-  PetscCall(problem.ProbeSolver());
-  PetscCall(RefuseImpossibleStart(problem, input));
+  PetscCall(Prepare(comm, help, sources, prepared));
+  SceneInput &input = prepared.input;
+  Problem &problem = prepared.problem;
   PetscCall(TakePetscHelp(petsc_help));
   if (help == HelpRequest::petsc) {
     status = answer(help_text() + "\nPETSc\n" + petsc_help);
@@ -134,8 +159,8 @@ PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
   PetscCall(CheckUnusedOptions(sources, petsc_help, input.warnings));
   const std::string &directory = input.scene.output.directory;
   Recorder recorder(directory);
-  Checkpoint checkpoint(recorder, input.scene.output, text_of_options(input), digest, start);
-  if (continues) PetscCall(checkpoint.Restore(stored, problem));
+  Checkpoint checkpoint(recorder, input.scene.output, text_of_options(input), prepared.digest, start);
+  if (!prepared.old_directory.empty()) PetscCall(checkpoint.Restore(prepared.stored, problem));
   PetscCall(PrepareOutputDirectory(comm, input.scene.output));
   catch_stop_signals();
   if (is_first_process()) std::fputs(scene_report(input).c_str(), stdout);
@@ -146,9 +171,7 @@ PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
   recorder.on_first_failure = [&progress](const StepFailure &failure) { progress.show(failure); };
   recorder.on_notice = [&progress](const std::string &text) { progress.show("note: " + text); };
   PetscCall(problem.Run({&recorder, &checkpoint}, completed, outcome.reason));
-  outcome.status = completed                       ? exit_status::completed
-                   : !problem.stop_request.empty() ? exit_status::stopped_on_request
-                                                   : exit_status::cannot_go_on;
+  outcome.status = status_of(problem, completed);
   if (completed) PetscCall(recorder.Conclude(problem));
   if (outcome.status == exit_status::cannot_go_on) {
     PetscCall(checkpoint.Write(problem));
@@ -168,8 +191,8 @@ PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
   };
   PetscCall(write(nullptr));
   progress.finish(recorder, problem.counts, outcome, cost, directory);
-  PetscCall(
-      ReportErrors(comm, input, from_file, start, recorder, outcome.status == exit_status::completed, progress, write));
+  PetscCall(ReportErrors(comm, input, prepared.from_file, start, recorder, outcome.status == exit_status::completed,
+                         progress, write));
   status = outcome.status;
   if (output_was_lost())
     print_warning("standard output was closed or full: not all was printed that is in " + directory);
