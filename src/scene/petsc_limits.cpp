@@ -20,7 +20,7 @@ struct Limit {
   const Range *range = nullptr;       ///< of a number
 };
 
-constexpr Range fraction{0, 1, true}, tenth{0, 0.1};
+constexpr Range fraction{0, 1, true}, at_most_one{0, 1}, tenth{0, 0.1};
 
 /// What TS, SNES and KSP of PETSc 3.18 ask the options for.
 const std::vector<Limit> &limits()
@@ -59,6 +59,8 @@ const std::vector<Limit> &limits()
       // When a step is solved: each force is held against what meets in it, whatever solver is chosen.
       {"-snes_convergence_test", "a step is solved when its forces balance to -snes_rtol", {}},
       {"-snes_rtol", "it is what may be left of the forces that meet", {}, "", &tenth},
+      // PETSc does not read it where the factors solve alone.
+      {"-ksp_rtol", "it is what a linear solve may leave of its right-hand side", {}, "", &at_most_one},
       {"-snes_atol", "what may be left is relative to the forces that meet", {}, "; use -snes_rtol"},
       {"-snes_stol", "a short step is no balance of forces", {"0"}, "; use -snes_rtol"},
       {"-snes_max_funcs", "nothing counts them", {}, "; use -snes_max_it"},

@@ -46,6 +46,7 @@ REFUSALS = [
     ("misspelt solver option", ["-ksp_typ", "gmres"], ["-ksp_typ = gmres", "nearest is -ksp_type"]),
     ("unknown solver", ["-ksp_type", "gmrs"], ["-ksp_type = gmrs"]),
     ("solver number that is none", ["-snes_rtol", "small"], ["-snes_rtol = small"]),
+    ("number of a solver that is not there", ["-ksp_rtol", "1e-5x"], ["-ksp_rtol = 1e-5x", "0 to 1"]),
     ("negative modulus", ["-top_ogden_moduli", "-0.75,0.45,0.18"], ["-top_ogden_moduli = -0.75,0.45,0.18"]),
     ("negative bulk modulus", ["-bottom_bulk_modulus", "-200"], ["-bottom_bulk_modulus = -200"]),
     ("unequal lengths", ["-friction_coefficients", "1,2,3"], ["-friction_coefficients = 1,2,3 has 3",
