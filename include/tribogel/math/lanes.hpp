@@ -11,7 +11,10 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace tribogel
 {
@@ -36,8 +39,10 @@ struct Lanes {
 #elif defined(__AVX__) && !defined(__AVX512F__)
       return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(v)));
 #else
+      // Not v[k]: GCC 12's bounds sanitizer sees the offset in bytes there and stops.
+      const auto lane = std::bit_cast<std::array<std::int64_t, count>>(v);
       unsigned all = 0;
-      for (int k = 0; k < count; ++k) all |= (v[k] ? 1u : 0u) << k;
+      for (std::size_t k = 0; k < count; ++k) all |= (lane[k] ? 1u : 0u) << k;
       return all;
 #endif
     }
