@@ -71,6 +71,16 @@ PetscErrorCode ReportErrors(MPI_Comm comm, const SceneInput &input, const Serial
   PetscFunctionReturn(0);
 }
 
+/// What the mesh file's groups were warned of, which may be why its gels do not meet: in brackets, or nothing.
+std::string perhaps_because(const SceneInput &input)
+{
+  const std::string file = "-mesh_file = " + input.mesh_file + ": ";
+  for (const std::string &warning : input.warnings)
+    if (!input.mesh_file.empty() && warning.starts_with(file))
+      return " (perhaps because " + warning.substr(file.size()) + ")";
+  return {};
+}
+
 /// Gels off the axis, or of a mesh file, that cannot stand on one another; what is odd about it becomes warnings.
 PetscErrorCode RefuseImpossibleStart(Problem &problem, SceneInput &input)
 {
@@ -88,7 +98,7 @@ PetscErrorCode RefuseImpossibleStart(Problem &problem, SceneInput &input)
   if (!objection.empty())
     throw UserError{option + ": before the gels are pressed, " + objection +
                     " (beyond the bottom gel's edge); allowed: a top gel whose face lies above the bottom gel's" +
-                    (input.scene.round ? ", here an offset of up to " + room + " mm" : "")};
+                    (input.scene.round ? ", here an offset of up to " + room + " mm" : "") + perhaps_because(input)};
   PetscFunctionReturn(0);
 }
 

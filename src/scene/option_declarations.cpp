@@ -274,7 +274,8 @@ std::vector<Option> time_options()
            .meaning = "error in time that the steps follow, per cent of the largest N and T so far:"
                       " exponential_euler: of a step; sdirk2: of N(t) and T(t), and of the internal variables",
            .source = "own",
-           .range = positive}};
+           .range = positive,
+           .may_change = true}};
 }
 
 OptionGroup discretisation_group()

@@ -46,6 +46,12 @@ bool may_change(const std::string &name)
   return option && option->may_change;
 }
 
+/// Is it of one start only? Where a run shall stop is no part of what it is: it goes on without that limit.
+bool is_of_one_start(const std::string &name)
+{
+  return name == "-output_directory" || name == "-overwrite" || name == "-restart" || name == "-ts_max_steps";
+}
+
 /// Unless it is given anew, in this or in another way.
 PetscErrorCode AdoptPart(const Json &part)
 {
@@ -77,12 +83,14 @@ std::string text_of_options(const SceneInput &input)
 {
   Json given = Json::object(), resolved = Json::object(), solver = Json::object();
   for (const auto &[name, text] : input.given)
-    if (name != "-output_directory" && name != "-overwrite" && name != "-restart") given[name] = text;
+    if (!is_of_one_start(name)) given[name] = text;
   if (!input.mesh_file.empty()) given["-mesh_file"] = std::filesystem::absolute(input.mesh_file).string();
   for (const auto &[name, text] : input.options) resolved["-" + name] = text;
   const auto all = resolved_options(input);
   for (std::size_t k = input.options.size(); k < all.size(); ++k)
-    if (all[k].first != "PETSC_OPTIONS" && !is_read_late(all[k].first)) solver["-" + all[k].first] = all[k].second;
+    if (const std::string name = "-" + all[k].first;
+        all[k].first != "PETSC_OPTIONS" && !is_read_late(all[k].first) && !is_of_one_start(name))
+      solver[name] = all[k].second;
   const Json all_of_them{{"given", given}, {"resolved", resolved}, {"solver", solver}};
   return all_of_them.dump(1, ' ', false, Json::error_handler_t::replace); // a path need not be UTF-8
 }

@@ -222,8 +222,8 @@ class Stopped(Folder):
         run(1, SHORT + ["-output_directory", "whole"], self.folder)
         done = run(1, SHORT + ["-output_directory", "run", "-ts_max_steps", "5"], self.folder, 3)
         self.assertIn("-ts_max_steps", done.stderr)
-        run(1, ["-restart", "run"], self.folder, 3)  # with the stored options
-        run(1, ["-restart", "run", "-ts_max_steps", "1000"], self.folder)
+        run(1, ["-restart", "run", "-ts_max_steps", "7"], self.folder, 3)
+        run(1, ["-restart", "run"], self.folder)  # the limit was of the starts before
         self.assert_same("run", "whole")
 
 
