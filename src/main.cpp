@@ -50,7 +50,8 @@ std::string version_text()
 /// Whatever the outcome of a run and what is known of it so far, into summary.json.
 using SummaryWriter = std::function<PetscErrorCode(const ErrorEstimate *estimate)>;
 
-/// What -error_estimate asks for. The run has been recorded, so that nothing is lost when companions are killed.
+/// What -error_estimate asks for. The run has been recorded, so that nothing is lost when companions are
+/// killed.
 PetscErrorCode ReportErrors(MPI_Comm comm, const SceneInput &input, const SerialMesh &from_file, double start,
                             const Recorder &recorder, bool completed, const Progress &progress,
                             const SummaryWriter &write)
@@ -71,7 +72,8 @@ PetscErrorCode ReportErrors(MPI_Comm comm, const SceneInput &input, const Serial
   PetscFunctionReturn(0);
 }
 
-/// What the mesh file's groups were warned of, which may be why its gels do not meet: in brackets, or nothing.
+/// What the mesh file's groups were warned of, which may be why its gels do not meet: in brackets, or
+/// nothing.
 std::string perhaps_because(const SceneInput &input)
 {
   const std::string file = "-mesh_file = " + input.mesh_file + ": ";
@@ -81,7 +83,8 @@ std::string perhaps_because(const SceneInput &input)
   return {};
 }
 
-/// Gels off the axis, or of a mesh file, that cannot stand on one another; what is odd about it becomes warnings.
+/// Gels off the axis, or of a mesh file, that cannot stand on one another; what is odd about it becomes
+/// warnings.
 PetscErrorCode RefuseImpossibleStart(Problem &problem, SceneInput &input)
 {
   std::string objection;
@@ -96,9 +99,10 @@ PetscErrorCode RefuseImpossibleStart(Problem &problem, SceneInput &input)
   const std::string room = to_text(input.scene.bottom.radius - input.scene.top.radius);
   for (const std::string &doubt : doubts) input.warnings.push_back(option + ": " + doubt);
   if (!objection.empty())
-    throw UserError{option + ": before the gels are pressed, " + objection +
-                    " (beyond the bottom gel's edge); allowed: a top gel whose face lies above the bottom gel's" +
-                    (input.scene.round ? ", here an offset of up to " + room + " mm" : "") + perhaps_because(input)};
+    throw UserError{
+        option + ": before the gels are pressed, " + objection +
+        " (beyond the bottom gel's edge); allowed: a top gel whose face lies above the bottom gel's" +
+        (input.scene.round ? ", here an offset of up to " + room + " mm" : "") + perhaps_because(input)};
   PetscFunctionReturn(0);
 }
 
@@ -138,8 +142,9 @@ PetscErrorCode Prepare(MPI_Comm comm, HelpRequest help, const OptionSources &sou
   run.digest = digest_of(mesh, from_file);
   if (continues) {
     expect_unchanged(input, run.stored.options);
-    PetscCall(ExpectSameMesh(comm, run.stored, run.digest,
-                             from_file ? "-mesh_file = " + input.mesh_file : "-restart = " + run.old_directory));
+    PetscCall(
+        ExpectSameMesh(comm, run.stored, run.digest,
+                       from_file ? "-mesh_file = " + input.mesh_file : "-restart = " + run.old_directory));
   }
   PetscCall(run.problem.SetUp(comm, input.scene, std::move(mesh)));
   PetscCall(run.problem.ProbeSolver());
@@ -191,18 +196,18 @@ PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
   const auto write = [&](const ErrorEstimate *estimate) -> PetscErrorCode {
     std::string complaint;
     PetscFunctionBeginUser;
-    PetscCall(WriteSummary(comm, directory, problem, recorder, outcome, cost, resolved_options(input), input.warnings,
-                           estimate, complaint));
+    PetscCall(WriteSummary(comm, directory, problem, recorder, outcome, cost, resolved_options(input),
+                           input.warnings, estimate, complaint));
     if (!complaint.empty())
-      outcome.fail(
-          complaint +
-          (completed ? "; the run's other files are whole, and -restart " + directory + " writes it again" : ""));
+      outcome.fail(complaint + (completed ? "; the run's other files are whole, and -restart " + directory +
+                                                " writes it again"
+                                          : ""));
     PetscFunctionReturn(0);
   };
   PetscCall(write(nullptr));
   progress.finish(recorder, problem.counts, outcome, cost, directory);
-  PetscCall(ReportErrors(comm, input, prepared.from_file, start, recorder, outcome.status == exit_status::completed,
-                         progress, write));
+  PetscCall(ReportErrors(comm, input, prepared.from_file, start, recorder,
+                         outcome.status == exit_status::completed, progress, write));
   status = outcome.status;
   if (output_was_lost())
     print_warning("standard output was closed or full: not all was printed that is in " + directory);

@@ -26,7 +26,8 @@ template <class Kinematics, int order> class BulkOf final : public Bulk
   static constexpr int dofs = Element::dofs, dim = Kinematics::dim;
 
 public:
-  BulkOf(const Mesh &mesh, const Kinematics &model, const Viscoelastic<double> materials[2], std::size_t memory)
+  BulkOf(const Mesh &mesh, const Kinematics &model, const Viscoelastic<double> materials[2],
+         std::size_t memory)
       : kinematics(model)
   {
     for (int body : {bottom_body, top_body}) {
@@ -45,7 +46,8 @@ public:
         std::copy_n(node.X.begin(), dim, data.X[a].begin());
         for (int i = 0; i < 3; ++i) data.dof[3 * a + i] = node.displacement + i;
       }
-      if (!known[remembering ? cells.size() : 0].cell.set(data.X) && !degenerate) degenerate = failure_of(data, {});
+      if (!known[remembering ? cells.size() : 0].cell.set(data.X) && !degenerate)
+        degenerate = failure_of(data, {});
       for (int a = 0; a < Element::nodes; ++a)
         data.at_top_plate = data.at_top_plate || mesh.nodes[mesh_cell.node[a]].on(Side::top_plate);
       data.history = offset;
@@ -73,7 +75,8 @@ public:
     return {};
   }
 
-  BulkFailure AddTopPlateForces(const double *U, const History &history, StepWeights step, double *F) const override
+  BulkFailure AddTopPlateForces(const double *U, const History &history, StepWeights step,
+                                double *F) const override
   {
     for (const CellData &c : cells) {
       if (!c.at_top_plate) continue;
@@ -259,7 +262,8 @@ private:
     std::size_t history;            ///< offset of its first point
     /// In `entries`; `elsewhere` if some of its unknowns are another rank's, or a row is too long.
     std::size_t first_entry;
-    std::array<unsigned char, Element::nodes> free; ///< of each node, a bit for each displacement not prescribed
+    std::array<unsigned char, Element::nodes>
+        free; ///< of each node, a bit for each displacement not prescribed
     bool at_top_plate;
     std::array<typename CellType::Position, Element::nodes> X;
   };
@@ -267,8 +271,8 @@ private:
   using PlaceInRow = std::uint16_t;
   static constexpr PlaceInRow no_entry = std::numeric_limits<PlaceInRow>::max();
 
-  /// Where a row of a cell's tangent goes in the values of OwnBlock: from the matrix's row on, by the column's node,
-  /// the place of its first free displacement.
+  /// Where a row of a cell's tangent goes in the values of OwnBlock: from the matrix's row on, by the
+  /// column's node, the place of its first free displacement.
   struct EntriesOfRow {
     PetscInt first = 0;
     std::array<PlaceInRow, Element::nodes> node; ///< no_entry where nothing is free or the row is prescribed
@@ -282,9 +286,10 @@ private:
     Evaluation evaluation;
   };
 
-  /// SNES asks for the residual and then for the tangent at the same U, and an accepted step for the internal variables
-  /// there: the material, which is most of the work, answers once. What it was asked is compared bit by bit. In meshes
-  /// with too many cells for that geometry and material answer each time, without moduli where nobody asks for them.
+  /// SNES asks for the residual and then for the tangent at the same U, and an accepted step for the internal
+  /// variables there: the material, which is most of the work, answers once. What it was asked is compared
+  /// bit by bit. In meshes with too many cells for that geometry and material answer each time, without
+  /// moduli where nobody asks for them.
   PointStatus Evaluate(std::size_t n, const double *U, const History &history, StepWeights step, bool moduli,
                        const Known *&answer)
   {
@@ -301,15 +306,16 @@ private:
     const auto size = static_cast<std::size_t>(Element::points) * material[c.body].history_size();
     double *copy = history_before.data() + c.history;
     if (k.step == step && k.U == u && std::equal(before, before + size, copy)) return PointStatus::ok;
-    const PointStatus status = k.evaluation.set(kinematics, k.cell, by_lanes[c.body], u, before, step, after, true);
+    const PointStatus status =
+        k.evaluation.set(kinematics, k.cell, by_lanes[c.body], u, before, step, after, true);
     k.step = status == PointStatus::ok ? step : StepWeights{-1};
     k.U = u;
     std::copy(before, before + size, copy);
     return status;
   }
 
-  /// Sum of the squares of weight (value - origin), with the weights and origins (0 at first) that `of_point` fills in
-  /// for the internal variables of a point.
+  /// Sum of the squares of weight (value - origin), with the weights and origins (0 at first) that `of_point`
+  /// fills in for the internal variables of a point.
   template <class OfPoint> double SumOfSquares(const History &history, OfPoint of_point) const
   {
     std::vector<double> weights[2], origin[2];
@@ -392,9 +398,10 @@ PetscErrorCode Make(const Mesh &mesh, const Scene &scene, const Kinematics &kine
   const Viscoelastic<double> materials[2] = {scene.bottom.material, scene.top.material};
   PetscFunctionBeginUser;
   auto made = std::make_unique<BulkOf<Kinematics, order>>(mesh, kinematics, materials, memory);
-  PetscCheck(!made->degenerate, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
-             "the mesh has a degenerate cell at %s; allowed: other radii and heights, or another -mesh_grading",
-             describe_place(mesh.dim, made->degenerate->X).c_str());
+  PetscCheck(
+      !made->degenerate, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
+      "the mesh has a degenerate cell at %s; allowed: other radii and heights, or another -mesh_grading",
+      describe_place(mesh.dim, made->degenerate->X).c_str());
   bulk = std::move(made);
   PetscFunctionReturn(0);
 }
@@ -412,7 +419,8 @@ PetscErrorCode MakeOf(const Mesh &mesh, const Scene &scene, std::size_t memory, 
 
 } // namespace
 
-PetscErrorCode Bulk::Create(const Mesh &mesh, const Scene &scene, std::unique_ptr<Bulk> &bulk, std::size_t memory)
+PetscErrorCode Bulk::Create(const Mesh &mesh, const Scene &scene, std::unique_ptr<Bulk> &bulk,
+                            std::size_t memory)
 {
   PetscFunctionBeginUser;
   if (mesh.order == 1)
@@ -441,7 +449,8 @@ PetscErrorCode ShareFailure(MPI_Comm comm, BulkFailure &failure)
 std::string describe(const BulkFailure &failure)
 {
   std::ostringstream text;
-  text << (failure.status == PointStatus::inverted ? "element turned inside out" : "Maxwell update found no solution")
+  text << (failure.status == PointStatus::inverted ? "element turned inside out"
+                                                   : "Maxwell update found no solution")
        << " in the " << (failure.body == top_body ? "top" : "bottom") << " gel near "
        << describe_place(failure.dim, failure.X);
   return text.str();

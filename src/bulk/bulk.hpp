@@ -1,5 +1,5 @@
-/// The bodies' internal forces and their tangent: a loop over this rank's cells that gathers, calls the element and
-/// scatters. It knows neither dimension nor material.
+/// The bodies' internal forces and their tangent: a loop over this rank's cells that gathers, calls the
+/// element and scatters. It knows neither dimension nor material.
 #pragma once
 
 #include "mesh/mesh.hpp"
@@ -32,15 +32,17 @@ class Bulk
 public:
   virtual ~Bulk() = default;
 
-  /// Forces of the displacements in the local array `U` (prescribed ones included) are added to the local array `F`
-  /// [N], and their absolute values to `magnitude`, against which a residual is small.
+  /// Forces of the displacements in the local array `U` (prescribed ones included) are added to the local
+  /// array `F` [N], and their absolute values to `magnitude`, against which a residual is small.
   virtual BulkFailure AddResidual(const double *U, const History &history, StepWeights step, double *F,
                                   double *magnitude) = 0;
 
   /// The forces of those cells alone that are bonded to the top plate.
-  virtual BulkFailure AddTopPlateForces(const double *U, const History &history, StepWeights step, double *F) const = 0;
+  virtual BulkFailure AddTopPlateForces(const double *U, const History &history, StepWeights step,
+                                        double *F) const = 0;
 
-  /// Adds the tangent to the matrix `A` (global, with a local-to-global mapping). Collective only in assembly.
+  /// Adds the tangent to the matrix `A` (global, with a local-to-global mapping). Collective only in
+  /// assembly.
   virtual PetscErrorCode AddJacobian(const double *U, const History &history, StepWeights step, Mat A,
                                      BulkFailure &failure) = 0;
 
@@ -62,19 +64,19 @@ public:
   /// Sum of the squares of C_i^-1 - 1, over this rank's points and branches.
   virtual double SquaredStrain(const History &history) const = 0;
 
-  /// Sum of the squares of a change of the internal variables, each times its branch's share of the material's shear
-  /// modulus before any relaxation.
+  /// Sum of the squares of a change of the internal variables, each times its branch's share of the
+  /// material's shear modulus before any relaxation.
   virtual double SquaredStress(const History &change) const = 0;
 
-  /// Round-off that the forces of a stress-free body carry: machine epsilon times bulk modulus times int |grad N| dV
-  /// [N], added to the local array.
+  /// Round-off that the forces of a stress-free body carry: machine epsilon times bulk modulus times int
+  /// |grad N| dV [N], added to the local array.
   virtual void AddRoundOff(double *magnitude) const = 0;
 
   /// Whether it keeps what it last evaluated, for when the same is asked again.
   virtual bool remembers() const = 0;
 
-  /// Geometry and evaluation of a cell take 7 kB at order 1 in space, 2.5 kB for each unknown: more than all else
-  /// without the solver.
+  /// Geometry and evaluation of a cell take 7 kB at order 1 in space, 2.5 kB for each unknown: more than all
+  /// else without the solver.
   static constexpr std::size_t most_remembered = std::size_t{1} << 28; ///< bytes on a rank
 
   /// It remembers where that takes `memory` bytes at most.
@@ -82,7 +84,8 @@ public:
                                std::size_t memory = most_remembered);
 };
 
-/// Makes a failure on any rank known to all: they must leave the evaluation, and the solve, together. Collective.
+/// Makes a failure on any rank known to all: they must leave the evaluation, and the solve, together.
+/// Collective.
 PetscErrorCode ShareFailure(MPI_Comm comm, BulkFailure &failure);
 
 /// In words, for messages.

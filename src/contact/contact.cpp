@@ -21,7 +21,8 @@ Surface lower_half(const Surface &wall, int axial, std::vector<bool> &taken)
   std::vector<bool> used(wall.node.size(), false);
   std::vector<std::array<int, 9>> facets;
   for (const auto &facet : wall.facet) {
-    if (std::any_of(facet.begin(), facet.end(), [&](int a) { return a >= 0 && height(a) > 0.5 * (foot + head); }))
+    if (std::any_of(facet.begin(), facet.end(),
+                    [&](int a) { return a >= 0 && height(a) > 0.5 * (foot + head); }))
       continue;
     facets.push_back(facet);
     for (int a : facet)
@@ -104,8 +105,8 @@ PetscErrorCode Contact::AddResidual(const PlateFrames &frames, const double *U, 
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Contact::AddJacobian(const PlateFrames &frames, const double *U, const double *Udot, double shift, Mat A,
-                                    std::string &failure)
+PetscErrorCode Contact::AddJacobian(const PlateFrames &frames, const double *U, const double *Udot,
+                                    double shift, Mat A, std::string &failure)
 {
   PetscFunctionBeginUser;
   for (GelContact &gel : gels) gel.failed_at.reset();
@@ -148,7 +149,8 @@ Wrench Contact::WallReaction(const double *U) const
   return wrench;
 }
 
-PetscErrorCode Contact::Results(const PlateFrames &frames, const double *U, const double *Udot, ContactResults &results)
+PetscErrorCode Contact::Results(const PlateFrames &frames, const double *U, const double *Udot,
+                                ContactResults &results)
 {
   PetscFunctionBeginUser;
   results = {};

@@ -1,5 +1,5 @@
-/// All contact of a scene: the top gel's lower face on the bottom gel, its wall that rolls on, the walls at the plates.
-/// Every slave node belongs to exactly one of them.
+/// All contact of a scene: the top gel's lower face on the bottom gel, its wall that rolls on, the walls at
+/// the plates. Every slave node belongs to exactly one of them.
 #pragma once
 
 #include "contact/gel_contact.hpp"
@@ -9,9 +9,10 @@ namespace tribogel
 {
 
 struct ContactResults {
-  std::vector<SurfaceResults> surfaces; ///< the lower face, then the wall (if it may touch); empty for a single gel
-  double force = 0, torque = 0;         ///< that the gels transmit, signed as the plate's reactions [N, N mm]
-  Wrench wall;                          ///< what the top plate does to a wall, all ranks'
+  std::vector<SurfaceResults>
+      surfaces;                 ///< the lower face, then the wall (if it may touch); empty for a single gel
+  double force = 0, torque = 0; ///< that the gels transmit, signed as the plate's reactions [N, N mm]
+  Wrench wall;                  ///< what the top plate does to a wall, all ranks'
 };
 
 class Contact
@@ -25,31 +26,32 @@ public:
   /// Before each solve of that step: a part of the wall that made the last one fail sits out.
   void BeginAttempt();
 
-  /// Contact forces and conditions are added to the local array `F` (at nodes that this rank owns) and their absolute
-  /// parts to `magnitude`. On failure `failure` says why, on every rank. Collective.
+  /// Contact forces and conditions are added to the local array `F` (at nodes that this rank owns) and their
+  /// absolute parts to `magnitude`. On failure `failure` says why, on every rank. Collective.
   PetscErrorCode AddResidual(const PlateFrames &frames, const double *U, const double *Udot, double *F,
                              double *magnitude, std::string &failure);
 
   /// dF/dU + shift dF/dUdot, into `A`. Collective.
-  PetscErrorCode AddJacobian(const PlateFrames &frames, const double *U, const double *Udot, double shift, Mat A,
-                             std::string &failure);
+  PetscErrorCode AddJacobian(const PlateFrames &frames, const double *U, const double *Udot, double shift,
+                             Mat A, std::string &failure);
 
-  /// Where undeformed gels stand so: the share of the top one's face that hangs over the edge of the bottom one's, or
-  /// why they cannot. Collective.
+  /// Where undeformed gels stand so: the share of the top one's face that hangs over the edge of the bottom
+  /// one's, or why they cannot. Collective.
   PetscErrorCode AtRest(const PlateFrames &frames, double &share, std::string &failure)
   {
     return gels.front().AtRest(frames, share, failure);
   }
 
-  /// Finds the pairs of facets that meet at U and whether the matrix pattern covers them; if not, the next AddPattern
-  /// does, with room for further sliding. Collective.
+  /// Finds the pairs of facets that meet at U and whether the matrix pattern covers them; if not, the next
+  /// AddPattern does, with room for further sliding. Collective.
   PetscErrorCode UpdateCandidates(const PlateFrames &frames, const double *U, bool &covered);
   PetscErrorCode AddPattern(Mat A) const;
 
   /// Round-off of the gap, as a force, added to the local array.
   void AddRoundOff(double *magnitude) const;
 
-  PetscErrorCode Results(const PlateFrames &frames, const double *U, const double *Udot, ContactResults &results);
+  PetscErrorCode Results(const PlateFrames &frames, const double *U, const double *Udot,
+                         ContactResults &results);
 
   /// What the top plate does to this rank's wall nodes.
   Wrench WallReaction(const double *U) const;

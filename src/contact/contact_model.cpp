@@ -45,12 +45,13 @@ ContactBlock unknowns_of(int a, const NodeBlock &block)
 
 } // namespace
 
-ContactModel::ContactModel(const Mesh &mesh, const Scene &scene, const Surface &slave, std::vector<bool> on_crease)
+ContactModel::ContactModel(const Mesh &mesh, const Scene &scene, const Surface &slave,
+                           std::vector<bool> on_crease)
     : is(std::make_unique<Operators>())
 {
   const bool wall = !on_crease.empty();
-  const double softer =
-      std::min(scene.top.material.equilibrium.shear_modulus(), scene.bottom.material.equilibrium.shear_modulus());
+  const double softer = std::min(scene.top.material.equilibrium.shear_modulus(),
+                                 scene.bottom.material.equilibrium.shear_modulus());
   for (const SurfaceNode &node : slave.node) is->carries.push_back(node.multiplier);
   is->friction = scene.friction;
   is->on_crease = std::move(on_crease);
@@ -83,10 +84,11 @@ ContactModel::Pairs ContactModel::candidate_pairs(const ContactState<double> &st
   return std::visit([&](const auto &contact) { return contact.candidate_pairs(state, margin); }, is->contact);
 }
 
-MortarReport ContactModel::update(const ContactState<double> &state, const Pairs &pairs, bool derivatives, int first,
-                                  int last)
+MortarReport ContactModel::update(const ContactState<double> &state, const Pairs &pairs, bool derivatives,
+                                  int first, int last)
 {
-  return std::visit([&](auto &contact) { return contact.update(state, pairs, derivatives, first, last); }, is->contact);
+  return std::visit([&](auto &contact) { return contact.update(state, pairs, derivatives, first, last); },
+                    is->contact);
 }
 
 void ContactModel::node(int a, NodeBlock &block) const
@@ -138,7 +140,8 @@ void ContactModel::pattern(const Pairs &pairs, int first, int last, const Emit &
 
 const SlaveNode &ContactModel::constants(int a) const
 {
-  return std::visit([&](const auto &contact) -> const SlaveNode & { return contact.constants(a); }, is->contact);
+  return std::visit([&](const auto &contact) -> const SlaveNode & { return contact.constants(a); },
+                    is->contact);
 }
 
 double ContactModel::slave_size() const
@@ -171,7 +174,8 @@ std::vector<bool> ContactModel::touching_without(const std::vector<int> &failed)
   std::vector<bool> facets = is->touching;
   for (int f : failed) facets[f] = false;
   if (!is->in_half_plane())
-    return connected_to_crease(std::get<SolidContact>(is->contact).reference().slave_surface, is->on_crease, facets);
+    return connected_to_crease(std::get<SolidContact>(is->contact).reference().slave_surface, is->on_crease,
+                               facets);
   std::fill(std::find(facets.begin(), facets.end(), false), facets.end(), false);
   return facets;
 }
@@ -182,7 +186,8 @@ void ContactModel::touch(std::vector<bool> facets)
   is->touching = std::move(facets);
   if (is->in_half_plane()) {
     const ContactGeometry &old = std::get<AxisymmetricContact>(is->contact).reference();
-    is->curve.facets_in_contact = static_cast<int>(std::count(is->touching.begin(), is->touching.end(), true));
+    is->curve.facets_in_contact =
+        static_cast<int>(std::count(is->touching.begin(), is->touching.end(), true));
     is->contact = AxisymmetricContact(ContactGeometry(old.slave, old.master, is->curve));
   } else {
     const SolidGeometry &old = std::get<SolidContact>(is->contact).reference();
@@ -196,7 +201,8 @@ void ContactModel::roll(const ContactState<double> &state)
 {
   if (is->in_half_plane()) {
     const ContactGeometry &geometry = std::get<AxisymmetricContact>(is->contact).reference();
-    const LineChain whole(geometry.slave.facets, is->curve.order + 1, static_cast<int>(geometry.slave.X.size()));
+    const LineChain whole(geometry.slave.facets, is->curve.order + 1,
+                          static_cast<int>(geometry.slave.X.size()));
     const int count = rolling_facets(whole, positions(geometry.slave, state.slave), geometry.master_chain,
                                      positions(geometry.master, state.master));
     std::vector<bool> facets(is->touching.size(), false);

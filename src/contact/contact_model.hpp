@@ -1,6 +1,6 @@
-/// The contact operator of a slave surface of the top gel on the bottom gel's face, a curve's or a solid's, behind one
-/// interface, for whoever knows unknowns and ranks. It also says which facets of a side wall may touch, since that
-/// changes the operator.
+/// The contact operator of a slave surface of the top gel on the bottom gel's face, a curve's or a solid's,
+/// behind one interface, for whoever knows unknowns and ranks. It also says which facets of a side wall may
+/// touch, since that changes the operator.
 #pragma once
 
 #include "mesh/mesh.hpp"
@@ -32,7 +32,8 @@ public:
   Pairs candidate_pairs(const ContactState<double> &state, double margin) const;
 
   /// Mortar integrals that the slave nodes first <= a < last need; what follows is of the last update.
-  MortarReport update(const ContactState<double> &state, const Pairs &pairs, bool derivatives, int first, int last);
+  MortarReport update(const ContactState<double> &state, const Pairs &pairs, bool derivatives, int first,
+                      int last);
 
   void node(int a, NodeBlock &block) const;
   NodeResult result(int a) const;
@@ -52,7 +53,8 @@ public:
   const std::vector<bool> &on_crease() const;
   const std::vector<bool> &touching() const; ///< facets of a wall that may touch
 
-  /// Those of the facets that touch now without the ones that failed, and what is cut off from the crease by that.
+  /// Those of the facets that touch now without the ones that failed, and what is cut off from the crease by
+  /// that.
   std::vector<bool> touching_without(const std::vector<int> &failed) const;
 
   /// Rebuilds the operator for contact of these facets.

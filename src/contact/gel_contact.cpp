@@ -14,8 +14,9 @@ namespace tribogel
 namespace
 {
 
-/// Sliding that a matrix pattern allows for, in facets. A whole facet makes the condensed matrix in space (solve/) a
-/// fifth larger and MUMPS 7 % slower than half a one; a quarter rebuilds the pattern more often and gains nothing.
+/// Sliding that a matrix pattern allows for, in facets. A whole facet makes the condensed matrix in space
+/// (solve/) a fifth larger and MUMPS 7 % slower than half a one; a quarter rebuilds the pattern more often
+/// and gains nothing.
 constexpr double margin_in_facets = 0.5;
 
 std::string describe(MortarStatus status, int dim, const SurfaceNode &near, bool wall)
@@ -125,11 +126,12 @@ PetscErrorCode GelContact::AtRest(const PlateFrames &frames, double &share, std:
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode GelContact::Gather(const PlateFrames &frames, const double *U, const double *Udot, double shift,
-                                  ContactState<double> &state) const
+PetscErrorCode GelContact::Gather(const PlateFrames &frames, const double *U, const double *Udot,
+                                  double shift, ContactState<double> &state) const
 {
   const std::size_t slaves = slave.node.size(), nodes = slaves + mesh->master.node.size();
-  std::vector<double> values(9 * nodes, 0.0); // every node is filled by its owner; the sum with zeros is exact
+  std::vector<double> values(9 * nodes,
+                             0.0); // every node is filled by its owner; the sum with zeros is exact
   PetscFunctionBeginUser;
   for (std::size_t n = 0; n < nodes; ++n) {
     const SurfaceNode &node = n < slaves ? slave.node[n] : mesh->master.node[n - slaves];
@@ -141,7 +143,8 @@ PetscErrorCode GelContact::Gather(const PlateFrames &frames, const double *U, co
       if (place.traction >= 0) values[9 * n + 6 + i] = U[place.traction + i];
     }
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM, comm));
+  PetscCallMPI(
+      MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM, comm));
   Unpack(frames, values, shift, state);
   PetscFunctionReturn(0);
 }
@@ -162,9 +165,9 @@ PetscErrorCode GelContact::Evaluate(const ContactState<double> &state, bool deri
   PetscCall(ShareFailure(report, failure));
   if (failure.empty() && overhang > largest_overhang * model->slave_size()) {
     std::ostringstream text;
-    text << "the top gel hangs over the edge of the bottom gel by " << overhang << (mesh->dim == 2 ? " mm" : " mm^2")
-         << ", " << 100 * overhang / model->slave_size() << " % of its face (at most " << 100 * largest_overhang
-         << " % may)";
+    text << "the top gel hangs over the edge of the bottom gel by " << overhang
+         << (mesh->dim == 2 ? " mm" : " mm^2") << ", " << 100 * overhang / model->slave_size()
+         << " % of its face (at most " << 100 * largest_overhang << " % may)";
     failure = text.str();
   }
   PetscFunctionReturn(0);
@@ -181,21 +184,24 @@ PetscErrorCode GelContact::ShareFailure(const MortarReport &report, std::string 
   if (worst.status == static_cast<int>(MortarStatus::ok)) PetscFunctionReturn(0);
   const auto &facet = slave.facet[static_cast<std::size_t>(worst.facet)];
   failed_at = slave.node[facet[0]].X;
-  failure = describe(static_cast<MortarStatus>(worst.status), mesh->dim, slave.node[facet[0]], model->is_wall());
+  failure =
+      describe(static_cast<MortarStatus>(worst.status), mesh->dim, slave.node[facet[0]], model->is_wall());
   std::vector<int> marks(slave.facet.size(), 0);
   for (int f : report.failed) marks[f] = 1;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, marks.data(), static_cast<int>(marks.size()), MPI_INT, MPI_MAX, comm));
+  PetscCallMPI(
+      MPI_Allreduce(MPI_IN_PLACE, marks.data(), static_cast<int>(marks.size()), MPI_INT, MPI_MAX, comm));
   failed.clear();
   for (std::size_t f = 0; f < marks.size(); ++f)
     if (marks[f]) failed.push_back(static_cast<int>(f));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode GelContact::AddResidual(const PlateFrames &frames, const double *U, const double *Udot, double *F,
-                                       double *magnitude, std::string &failure)
+PetscErrorCode GelContact::AddResidual(const PlateFrames &frames, const double *U, const double *Udot,
+                                       double *F, double *magnitude, std::string &failure)
 {
   const std::size_t slaves = slave.node.size(), masters = mesh->master.node.size();
-  const std::size_t length = 6 * slaves + 3 * masters; // forces and conditions of the slave, forces of the master
+  const std::size_t length =
+      6 * slaves + 3 * masters; // forces and conditions of the slave, forces of the master
   ContactState<double> state;
   PetscFunctionBeginUser;
   PetscCall(Gather(frames, U, Udot, 1, state));
@@ -230,7 +236,8 @@ PetscErrorCode GelContact::AddResidual(const PlateFrames &frames, const double *
       add(6 * a + 3 + i, block.residual[block.residual.size() - 3 + i], extent[i]);
     }
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, comm));
+  PetscCallMPI(
+      MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, comm));
   for (std::size_t n = 0; n < slaves + masters; ++n) {
     const SurfaceNode &node = n < slaves ? slave.node[n] : mesh->master.node[n - slaves];
     if (node.local < 0) continue;
@@ -267,13 +274,14 @@ PetscErrorCode GelContact::Add(const ContactBlock &block, Mat A) const
   Indices(block.rows, rows);
   Indices(block.columns, columns);
   if (block.values.size() == 0) zeros.assign(rows.size() * columns.size(), 0.0);
-  PetscCall(MatSetValues(A, static_cast<PetscInt>(rows.size()), rows.data(), static_cast<PetscInt>(columns.size()),
-                         columns.data(), zeros.empty() ? block.values.data() : zeros.data(), ADD_VALUES));
+  PetscCall(MatSetValues(A, static_cast<PetscInt>(rows.size()), rows.data(),
+                         static_cast<PetscInt>(columns.size()), columns.data(),
+                         zeros.empty() ? block.values.data() : zeros.data(), ADD_VALUES));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode GelContact::AddJacobian(const PlateFrames &frames, const double *U, const double *Udot, double shift,
-                                       Mat A, std::string &failure)
+PetscErrorCode GelContact::AddJacobian(const PlateFrames &frames, const double *U, const double *Udot,
+                                       double shift, Mat A, std::string &failure)
 {
   ContactState<double> state;
   PetscErrorCode worst = 0;
@@ -330,7 +338,8 @@ void GelContact::AddRoundOff(double *magnitude) const
     const SlaveNode &constants = model->constants(static_cast<int>(a));
     const double stiffness = constants.D * constants.c_N;
     const PetscInt row = mesh->nodes[node.local].traction;
-    for (int i = 0; i < 3; ++i) magnitude[row + i] += std::numeric_limits<double>::epsilon() * stiffness * extent;
+    for (int i = 0; i < 3; ++i)
+      magnitude[row + i] += std::numeric_limits<double>::epsilon() * stiffness * extent;
   }
 }
 
@@ -383,7 +392,8 @@ PetscErrorCode GelContact::Results(const PlateFrames &frames, const double *U, c
     force += axial;
     torque -= turning;
   }
-  for (int b = 0; b < static_cast<int>(mesh->master.node.size()); ++b) results.master.push_back(model->master_place(b));
+  for (int b = 0; b < static_cast<int>(mesh->master.node.size()); ++b)
+    results.master.push_back(model->master_place(b));
   PetscFunctionReturn(0);
 }
 

@@ -1,6 +1,7 @@
-/// Contact of a slave surface of the top gel (its lower face, or its wall that may roll) with the bottom gel in the
-/// PETSc world, in the half plane or in 3-D: both surfaces are small, so every rank holds their nodal values; the slave
-/// nodes are shared out evenly, whatever the bulk's partition is, and the forces go home by one reduction.
+/// Contact of a slave surface of the top gel (its lower face, or its wall that may roll) with the bottom gel
+/// in the PETSc world, in the half plane or in 3-D: both surfaces are small, so every rank holds their nodal
+/// values; the slave nodes are shared out evenly, whatever the bulk's partition is, and the forces go home by
+/// one reduction.
 #pragma once
 
 #include "contact/contact_model.hpp"
@@ -24,7 +25,8 @@ class GelContact
 {
 public:
   /// `on_crease` marks the nodes of a side wall that belong to the lower face; empty: the slave is that face.
-  PetscErrorCode SetUp(MPI_Comm comm, const Mesh &mesh, const Scene &scene, Surface slave, std::vector<bool> on_crease);
+  PetscErrorCode SetUp(MPI_Comm comm, const Mesh &mesh, const Scene &scene, Surface slave,
+                       std::vector<bool> on_crease);
 
   /// Before a step from U: which facets of a wall may touch during it. Collective.
   PetscErrorCode BeginStep(const PlateFrames &frames, const double *U);
@@ -32,33 +34,34 @@ public:
   /// Before each solve of that step.
   void BeginAttempt();
 
-  /// Contact forces and conditions are added to the local array `F` (at nodes that this rank owns) and their absolute
-  /// parts to `magnitude`. On failure `failure` says why, on every rank. Collective.
+  /// Contact forces and conditions are added to the local array `F` (at nodes that this rank owns) and their
+  /// absolute parts to `magnitude`. On failure `failure` says why, on every rank. Collective.
   PetscErrorCode AddResidual(const PlateFrames &frames, const double *U, const double *Udot, double *F,
                              double *magnitude, std::string &failure);
 
   /// dF/dU + shift dF/dUdot, into `A` by global indices. Collective.
-  PetscErrorCode AddJacobian(const PlateFrames &frames, const double *U, const double *Udot, double shift, Mat A,
-                             std::string &failure);
+  PetscErrorCode AddJacobian(const PlateFrames &frames, const double *U, const double *Udot, double shift,
+                             Mat A, std::string &failure);
 
-  /// Where undeformed gels stand so: the share of the slave that hangs over the master's edge, or why they cannot.
-  /// Collective.
+  /// Where undeformed gels stand so: the share of the slave that hangs over the master's edge, or why they
+  /// cannot. Collective.
   PetscErrorCode AtRest(const PlateFrames &frames, double &share, std::string &failure);
 
-  /// Finds the pairs of facets that meet at U and whether the matrix pattern covers them; if not, the next AddPattern
-  /// does, with room for further sliding. Collective.
+  /// Finds the pairs of facets that meet at U and whether the matrix pattern covers them; if not, the next
+  /// AddPattern does, with room for further sliding. Collective.
   PetscErrorCode UpdateCandidates(const PlateFrames &frames, const double *U, bool &covered);
   PetscErrorCode AddPattern(Mat A) const;
 
   /// Round-off of the gap, as a force, added to the local array.
   void AddRoundOff(double *magnitude) const;
 
-  /// Nodal results of the slave, and force [N] and torque [N mm] that the tractions transmit, signed as the plate's
-  /// reactions; the same on every rank. Collective.
-  PetscErrorCode Results(const PlateFrames &frames, const double *U, const double *Udot, SurfaceResults &results,
-                         double &force, double &torque);
+  /// Nodal results of the slave, and force [N] and torque [N mm] that the tractions transmit, signed as the
+  /// plate's reactions; the same on every rank. Collective.
+  PetscErrorCode Results(const PlateFrames &frames, const double *U, const double *Udot,
+                         SurfaceResults &results, double &force, double &torque);
 
-  /// Of each slave node: whether it carries a multiplier, and the constant diagonal of the mortar matrix [mm^2].
+  /// Of each slave node: whether it carries a multiplier, and the constant diagonal of the mortar matrix
+  /// [mm^2].
   struct Weight {
     bool carries;
     double D;

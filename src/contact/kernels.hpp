@@ -1,5 +1,5 @@
-/// The kernels of contact that take the compiler longest, half a minute with what they are made of: compiled once
-/// (kernels.cpp), for the program and for the tests of the operators.
+/// The kernels of contact that take the compiler longest, half a minute with what they are made of: compiled
+/// once (kernels.cpp), for the program and for the tests of the operators.
 #pragma once
 
 #include "tribogel/contact/condition_slope.hpp"
@@ -20,9 +20,11 @@ extern template QuadPairMortar<2> quad_pair_mortar(const QuadMeasure<2> &, const
 extern template QuadPairMortars<1> quad_element_mortar(const QuadMeasure<1> &, const QuadPairs<1> &, bool);
 extern template QuadPairMortars<2> quad_element_mortar(const QuadMeasure<2> &, const QuadPairs<2> &, bool);
 
-extern template Eigen::Matrix<double, 3, 10> condition_slope<10>(const ContactPoint<double> &, const ContactScale &,
+extern template Eigen::Matrix<double, 3, 10> condition_slope<10>(const ContactPoint<double> &,
+                                                                 const ContactScale &,
                                                                  const PolynomialFriction<double> &, bool);
-extern template Eigen::Matrix<double, 3, 11> condition_slope<11>(const ContactPoint<double> &, const ContactScale &,
+extern template Eigen::Matrix<double, 3, 11> condition_slope<11>(const ContactPoint<double> &,
+                                                                 const ContactScale &,
                                                                  const PolynomialFriction<double> &, bool);
 
 } // namespace tribogel

@@ -1,6 +1,6 @@
-/// Adds blocks to the rows of a matrix that one process holds whole. MatSetValues searches each entry among the row's;
-/// here entries are looked for where those of the block's last row were, or next to the last one: the unknowns of a
-/// node have the same columns, and lie side by side.
+/// Adds blocks to the rows of a matrix that one process holds whole. MatSetValues searches each entry among
+/// the row's; here entries are looked for where those of the block's last row were, or next to the last one:
+/// the unknowns of a node have the same columns, and lie side by side.
 #pragma once
 
 #include <petscmat.h>
@@ -42,7 +42,8 @@ public:
   bool is_open() const { return A != nullptr; }
 
   /// `values` by rows; negative indices are left out.
-  PetscErrorCode Add(const std::vector<PetscInt> &rows, const std::vector<PetscInt> &columns, const double *values)
+  PetscErrorCode Add(const std::vector<PetscInt> &rows, const std::vector<PetscInt> &columns,
+                     const double *values)
   {
     PetscFunctionBeginUser;
     offset.assign(columns.size(), 0);

@@ -77,7 +77,8 @@ void PlateContact::SetUp(const Mesh &both, const Scene &scene, int body, const S
   }
 }
 
-PlateNodeBlock PlateContact::Block(const WallNode &wall_node, const PlateFrames &frames, const double *U) const
+PlateNodeBlock PlateContact::Block(const WallNode &wall_node, const PlateFrames &frames,
+                                   const double *U) const
 {
   const Node &node = mesh->nodes[wall_node.node];
   const Vector3<double> outward = wall_node.above ? up : Vector3<double>(-up);

@@ -1,5 +1,5 @@
-/// Contact of a body's side wall with the rigid plates in the PETSc world. Each node is handled by the rank that owns
-/// it; nothing is communicated.
+/// Contact of a body's side wall with the rigid plates in the PETSc world. Each node is handled by the rank
+/// that owns it; nothing is communicated.
 #pragma once
 
 #include "contact/plate_frames.hpp"
@@ -14,7 +14,8 @@ class PlateContact
 {
 public:
   /// The nodes of `wall` with a multiplier, save those in `taken` (indices into the surface).
-  void SetUp(const Mesh &mesh, const Scene &scene, int body, const Surface &wall, const std::vector<bool> &taken);
+  void SetUp(const Mesh &mesh, const Scene &scene, int body, const Surface &wall,
+             const std::vector<bool> &taken);
 
   void AddResidual(const PlateFrames &frames, const double *U, double *F, double *magnitude) const;
   PetscErrorCode AddJacobian(const PlateFrames &frames, const double *U, Mat A) const;
@@ -36,7 +37,8 @@ private:
 
   const Mesh *mesh = nullptr;
   Vector3<double> up{0, 0, 1}; ///< the plates' normal
-  bool spans_both = false;     ///< one gel between the plates: the upper one moves against the frame of its unknowns
+  bool spans_both =
+      false; ///< one gel between the plates: the upper one moves against the frame of its unknowns
   std::vector<WallNode> nodes;
   double extent = 0; ///< of the scene, for round-off [mm]
 };

@@ -16,12 +16,12 @@ struct PlateFrames {
   double top_rotation = 0;          ///< [rad]
   double bottom_rotation = 0;       ///< [rad]
   std::array<double, 2> top_axis{}; ///< where the top plate's axis stands, the bottom's at (0, 0) [mm]
-  double step =
-      1; ///< of time [s]: what turns a sliding velocity into a distance; infinite in steady states of the half plane
+  double step = 1; ///< of time [s]: what turns a sliding velocity into a distance; infinite in steady states
+                   ///< of the half plane
 };
 
-/// What a plate does to a gel, in the frame of the gel's unknowns; the moment is about that frame's origin, at the
-/// height of the undeformed contact face. In the half plane only the components along z are not 0.
+/// What a plate does to a gel, in the frame of the gel's unknowns; the moment is about that frame's origin,
+/// at the height of the undeformed contact face. In the half plane only the components along z are not 0.
 struct Wrench {
   Vector3<double> force = Vector3<double>::Zero();  ///< [N]
   Vector3<double> moment = Vector3<double>::Zero(); ///< [N mm]

@@ -11,8 +11,8 @@ namespace tribogel
 namespace
 {
 
-/// Half the square's edge over the radius: there the cells at the middle of its edges, at its corners and at the rim
-/// are about equally wide.
+/// Half the square's edge over the radius: there the cells at the middle of its edges, at its corners and at
+/// the rim are about equally wide.
 constexpr double square_over_radius = 0.5;
 
 using Plane = std::array<double, 2>;
@@ -54,7 +54,8 @@ Disc disc_of(const std::vector<double> &R)
 {
   const double outer = R.back();
   const auto last = R.end() - (R.size() > 2 ? 2 : 1); // at least one ring, unless there is one edge only
-  const auto beyond = std::find_if(R.begin() + 1, last, [&](double r) { return r >= square_over_radius * outer; });
+  const auto beyond =
+      std::find_if(R.begin() + 1, last, [&](double r) { return r >= square_over_radius * outer; });
   const int k = static_cast<int>(beyond - R.begin()), n = 2 * k;
   Disc disc{R[k] / outer, {}, {}, {}};
   std::vector<double> t; // along an edge of the square
@@ -119,14 +120,17 @@ void extrude(const MeridianBlock &block, const Disc &disc, SerialMesh &mesh)
       }
       cell.key = std::atan2(middle[1], middle[0]);
       mesh.cell.push_back(cell);
-      for (const auto &[layer, above, side] : {std::tuple{0, 0, block.lower}, std::tuple{layers - 1, 4, block.upper}})
+      for (const auto &[layer, above, side] :
+           {std::tuple{0, 0, block.lower}, std::tuple{layers - 1, 4, block.upper}})
         if (l == layer)
           mesh.boundary.push_back(
-              {{cell.vertex[above], cell.vertex[above + 1], cell.vertex[above + 2], cell.vertex[above + 3]}, side});
+              {{cell.vertex[above], cell.vertex[above + 1], cell.vertex[above + 2], cell.vertex[above + 3]},
+               side});
     }
   for (int l = 0; l < layers; ++l)
     for (std::size_t p = 0; p < disc.rim.size(); ++p) {
-      const int a = first + l * stride + disc.rim[p], b = first + l * stride + disc.rim[(p + 1) % disc.rim.size()];
+      const int a = first + l * stride + disc.rim[p],
+                b = first + l * stride + disc.rim[(p + 1) % disc.rim.size()];
       mesh.boundary.push_back({{a, b, b + stride, a + stride}, block.outer});
     }
 }

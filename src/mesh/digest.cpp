@@ -10,7 +10,8 @@ namespace tribogel
 namespace
 {
 
-/// FNV-1a of 64 bits. It tells meshes apart that differ by mistake; nobody makes two of the same digest on purpose.
+/// FNV-1a of 64 bits. It tells meshes apart that differ by mistake; nobody makes two of the same digest on
+/// purpose.
 class Fnv
 {
 public:
@@ -34,7 +35,8 @@ private:
 std::string digest_of(const SerialMesh &mesh, bool places)
 {
   Fnv fnv;
-  for (const std::size_t size : {mesh.vertex.size(), mesh.cell.size(), mesh.boundary.size(), mesh.middle.size()})
+  for (const std::size_t size :
+       {mesh.vertex.size(), mesh.cell.size(), mesh.boundary.size(), mesh.middle.size()})
     fnv.add(static_cast<std::uint64_t>(size));
   for (const SerialMesh::Cell &cell : mesh.cell) {
     fnv.add(cell.body);

@@ -13,7 +13,8 @@ namespace
 
 using Place = std::array<double, 3>;
 
-template <int order> void add(const std::array<Place, tensor_nodes<2, order>> &X, std::vector<FaceSample> &samples)
+template <int order>
+void add(const std::array<Place, tensor_nodes<2, order>> &X, std::vector<FaceSample> &samples)
 {
   constexpr int points = 4;
   static const auto gauss = gauss_rule<points>();
@@ -34,10 +35,12 @@ template <int order> void add(const std::array<Place, tensor_nodes<2, order>> &X
   }
 }
 
-template <int order> void add(const Surface &surface, const std::array<int, 9> &facet, std::vector<FaceSample> &samples)
+template <int order>
+void add(const Surface &surface, const std::array<int, 9> &facet, std::vector<FaceSample> &samples)
 {
   std::array<Place, tensor_nodes<2, order>> nodes;
-  for (std::size_t a = 0; a < nodes.size(); ++a) nodes[a] = surface.node[static_cast<std::size_t>(facet[a])].X;
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    nodes[a] = surface.node[static_cast<std::size_t>(facet[a])].X;
   add<order>(nodes, samples);
 }
 
@@ -54,7 +57,8 @@ ContactFace contact_face(const Mesh &mesh, const Surface &surface)
   for (const auto &facet : surface.facet)
     mesh.order == 1 ? add<1>(surface, facet, samples) : add<2>(surface, facet, samples);
   std::vector<ContactFace::Part> parts;
-  for (const FaceSample &sample : samples) parts.push_back({std::hypot(sample.X[0], sample.X[1]), sample.area});
+  for (const FaceSample &sample : samples)
+    parts.push_back({std::hypot(sample.X[0], sample.X[1]), sample.area});
   return ContactFace(std::move(parts));
 }
 

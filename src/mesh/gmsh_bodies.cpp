@@ -37,7 +37,8 @@ public:
   GmshBodies build()
   {
     expect_groups();
-    for (const GmshElement &element : file.elements) curved = curved || (element.dim == 3 && element.nodes.size() > 8);
+    for (const GmshElement &element : file.elements)
+      curved = curved || (element.dim == 3 && element.nodes.size() > 8);
     for (const GmshElement &element : file.elements)
       if (element.dim == 3) add_cell(element);
     for (const GmshElement &element : file.elements)
@@ -45,11 +46,13 @@ public:
     if (!left_out.empty())
       bodies.warnings.push_back(std::string("hexahedra that are not in the physical ") +
                                 (has_top ? "volumes top and bottom" : "volume bottom") + " are left out (" +
-                                in_number(left_out.size()) + "element " + std::to_string(left_out.front()) + ")");
+                                in_number(left_out.size()) + "element " + std::to_string(left_out.front()) +
+                                ")");
     for (const auto &[vertices, face] : faces)
       if (face.cells == 1) bodies.outer.push_back(face.outer);
     for (const OuterFace &face : bodies.outer) mesh.boundary.push_back({face.around, face.side});
-    for (std::size_t c = 0; c < mesh.cell.size(); ++c) bodies.part.push_back(parts.find_set(static_cast<int>(c)));
+    for (std::size_t c = 0; c < mesh.cell.size(); ++c)
+      bodies.part.push_back(parts.find_set(static_cast<int>(c)));
     return std::move(bodies);
   }
 
@@ -66,9 +69,10 @@ private:
       for (const GmshElement &element : file.elements)
         if (element.dim == dim && stands_in(element, name)) return;
       throw UserError{no_such_group(file, dim, name) + "; allowed: " +
-                      (has_top ? "volumes top and bottom, surfaces top_plate, bottom_plate, top_contact and "
-                                 "bottom_contact"
-                               : "with -specimens bottom volume bottom, surfaces top_plate and bottom_plate")};
+                      (has_top
+                           ? "volumes top and bottom, surfaces top_plate, bottom_plate, top_contact and "
+                             "bottom_contact"
+                           : "with -specimens bottom volume bottom, surfaces top_plate and bottom_plate")};
     };
     expect(3, "bottom");
     if (has_top) expect(3, "top");
@@ -88,9 +92,10 @@ private:
       mesh.vertex.push_back(file.nodes.at(tag));
       body_of.push_back(body);
     } else if (body_of[place->second] != body)
-      complain(element,
-               "shares node " + std::to_string(tag) +
-                   " with the other body; allowed: bodies that have nodes of their own, also where they touch");
+      complain(
+          element,
+          "shares node " + std::to_string(tag) +
+              " with the other body; allowed: bodies that have nodes of their own, also where they touch");
     return place->second;
   }
 
@@ -102,7 +107,8 @@ private:
     std::vector<Place> given;
     for (const long tag : element.nodes) given.push_back(file.nodes.at(tag));
     const auto node = all_nodes(given);
-    if (const std::string fault = fault_of(node, given.size(), order); !fault.empty()) complain(element, fault);
+    if (const std::string fault = fault_of(node, given.size(), order); !fault.empty())
+      complain(element, fault);
     SerialMesh::Cell cell{{}, in[1] ? top_body : bottom_body, 0};
     std::array<int, 8> corner;
     double middle[2] = {};
@@ -151,7 +157,8 @@ private:
   }
 
   /// Of the 27 places those with two, four and eight corners.
-  void add_middles(const GmshElement &element, const std::array<int, 8> &corner, const std::array<Place, 27> &node)
+  void add_middles(const GmshElement &element, const std::array<int, 8> &corner,
+                   const std::array<Place, 27> &node)
   {
     for (int k = 8; k < 27; ++k) {
       std::vector<int> vertices;
@@ -176,8 +183,8 @@ private:
     complain(element, "has the middle of " +
                           (vertices.size() == 2 ? "the edge from " + in_words(a) + " to " + in_words(b)
                                                 : "the face at " + in_words(a)) +
-                          " at " + in_words(here) + ", element " + std::to_string(bodies.element[other]) + " at " +
-                          in_words(there) + "; allowed: one middle");
+                          " at " + in_words(here) + ", element " + std::to_string(bodies.element[other]) +
+                          " at " + in_words(there) + "; allowed: one middle");
   }
 
   /// The face of a cell that has these corners.
@@ -213,7 +220,8 @@ private:
     if (face && known && order == 2 && element.nodes.size() > 4) compare_middles(element);
   }
 
-  /// The middles of a face's element are not used; where they differ from the cell's, the file means two things.
+  /// The middles of a face's element are not used; where they differ from the cell's, the file means two
+  /// things.
   void compare_middles(const GmshElement &element) const
   {
     for (int k = 4; k < static_cast<int>(element.nodes.size()); ++k) {
@@ -221,7 +229,8 @@ private:
       for (int v = 0; v < 4; ++v)
         if (k == 8 || v == k - 4 || v == (k - 3) % 4) vertices.push_back(vertex_of.at(element.nodes[v]));
       const auto found = mesh.middle.find(middle_key(vertices));
-      if (found != mesh.middle.end()) expect_same(element, vertices, file.nodes.at(element.nodes[k]), found->second);
+      if (found != mesh.middle.end())
+        expect_same(element, vertices, file.nodes.at(element.nodes[k]), found->second);
     }
   }
 
@@ -242,7 +251,8 @@ private:
 
 std::vector<SurfaceGroup> surface_groups(bool has_top)
 {
-  if (!has_top) return {{"top_plate", Side::top_plate, bottom_body}, {"bottom_plate", Side::bottom_plate, bottom_body}};
+  if (!has_top)
+    return {{"top_plate", Side::top_plate, bottom_body}, {"bottom_plate", Side::bottom_plate, bottom_body}};
   return {{"top_plate", Side::top_plate, top_body},
           {"bottom_plate", Side::bottom_plate, bottom_body},
           {"top_contact", Side::slave, top_body},

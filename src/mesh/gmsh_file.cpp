@@ -145,8 +145,8 @@ private:
       groups.insert({entity.first, std::abs(whole(at + static_cast<std::size_t>(k)))});
   }
 
-  /// Format 4.1: the parts into which Gmsh has cut the entities, and the interfaces between parts. These stand under
-  /// the entity that they cut, of a higher dimension, whose groups are none of theirs.
+  /// Format 4.1: the parts into which Gmsh has cut the entities, and the interfaces between parts. These
+  /// stand under the entity that they cut, of a higher dimension, whose groups are none of theirs.
   void partitioned_entities()
   {
     expect(1);
@@ -170,7 +170,8 @@ private:
 
   void add_node(long tag)
   {
-    if (!result.nodes.emplace(tag, std::array{real(words.size() - 3), real(words.size() - 2), real(words.size() - 1)})
+    if (!result.nodes
+             .emplace(tag, std::array{real(words.size() - 3), real(words.size() - 2), real(words.size() - 1)})
              .second)
       complain("node " + std::to_string(tag) + " a second time");
   }
@@ -203,7 +204,8 @@ private:
     }
   }
 
-  /// From the line's words: its tag, then nodes from word `first` on. `owner` is its group or, in format 4.1, entity.
+  /// From the line's words: its tag, then nodes from word `first` on. `owner` is its group or, in format 4.1,
+  /// entity.
   void add_element(const GmshElementType &type, std::size_t first, const Tag &owner)
   {
     if (type.dim < 2) return;
@@ -246,8 +248,8 @@ private:
     for (const GmshElement &element : result.elements)
       for (const long node : element.nodes)
         if (!result.nodes.count(node))
-          throw UserError{"no node " + std::to_string(node) + ", which element " + std::to_string(element.tag) +
-                          " has" + allowed_file};
+          throw UserError{"no node " + std::to_string(node) + ", which element " +
+                          std::to_string(element.tag) + " has" + allowed_file};
   }
 
   /// Gmsh can write each partition to a file of its own.

@@ -1,8 +1,8 @@
-/// What is in a Gmsh file: nodes, elements and the names of their groups, before they mean anything. ASCII, formats 2.2
-/// and 4.1.
+/// What is in a Gmsh file: nodes, elements and the names of their groups, before they mean anything. ASCII,
+/// formats 2.2 and 4.1.
 ///
-/// PETSc's own reader (DMPlexCreateGmsh) is not used: it takes the names of groups only if an option in its database
-/// says so, names neither file nor line when it cannot read one, and trusts the numbers in it.
+/// PETSc's own reader (DMPlexCreateGmsh) is not used: it takes the names of groups only if an option in its
+/// database says so, names neither file nor line when it cannot read one, and trusts the numbers in it.
 #pragma once
 
 #include <array>
@@ -35,8 +35,8 @@ struct GmshFile {
   std::map<std::pair<int, long>, GmshGroup> groups; ///< by dimension (2 or 3) and number
 };
 
-/// Sections may stand in any order behind the first, save that the entities of format 4.1 come before their elements.
-/// Throws UserError that says where and what is wrong and what is allowed, without the file's name.
+/// Sections may stand in any order behind the first, save that the entities of format 4.1 come before their
+/// elements. Throws UserError that says where and what is wrong and what is allowed, without the file's name.
 GmshFile read_gmsh(std::istream &stream);
 
 } // namespace tribogel

@@ -22,7 +22,8 @@ std::string listed(const GmshFile &file, int dim)
   for (const auto &[tag, group] : file.groups) {
     if (tag.first != dim || ++count > most) continue;
     text += (count == 1 ? "" : ", ") +
-            (group.name.empty() ? "number " + std::to_string(tag.second) + " (no name)" : "'" + group.name + "'") +
+            (group.name.empty() ? "number " + std::to_string(tag.second) + " (no name)"
+                                : "'" + group.name + "'") +
             (group.elements > 0 ? "" : " (no element)");
   }
   if (count == 0) return "no " + kind_of(dim) + "s";
@@ -36,13 +37,14 @@ std::string hint(const GmshFile &file, int dim, const std::string &name)
   std::vector<std::string> others;
   for (const auto &[tag, group] : file.groups) {
     if (group.name == name)
-      return tag.first == dim
-                 ? "the file names it, but no element is in it (with Mesh.SaveAll Gmsh leaves groups out of format 2.2)"
-                 : "'" + name + "' is a " + kind_of(tag.first);
+      return tag.first == dim ? "the file names it, but no element is in it (with Mesh.SaveAll Gmsh leaves "
+                                "groups out of format 2.2)"
+                              : "'" + name + "' is a " + kind_of(tag.first);
     if (tag.first == dim && !group.name.empty()) others.push_back(group.name);
   }
   const std::string nearest = nearest_name(name, others, plausible_distance(name));
-  return nearest.empty() ? nearest : "there is a " + kind_of(dim) + " '" + nearest + "': names are taken to the letter";
+  return nearest.empty() ? nearest
+                         : "there is a " + kind_of(dim) + " '" + nearest + "': names are taken to the letter";
 }
 
 } // namespace

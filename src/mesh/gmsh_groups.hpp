@@ -8,7 +8,8 @@
 namespace tribogel
 {
 
-/// That no element of this dimension is in a group of this name, which one may be meant, and which groups there are.
+/// That no element of this dimension is in a group of this name, which one may be meant, and which groups
+/// there are.
 std::string no_such_group(const GmshFile &file, int dim, const std::string &name);
 
 } // namespace tribogel

@@ -36,8 +36,8 @@ GmshElementType gmsh_element_type(long number, const std::string &where)
 std::string foreign_head(const std::string &line)
 {
   static const std::pair<const char *, const char *> heads[] = {
-      {"(",
-       " (as in meshes of ANSYS Fluent, which meshio writes unless it is told file_format=\"gmsh22\", binary=False)"},
+      {"(", " (as in meshes of ANSYS Fluent, which meshio writes unless it is told file_format=\"gmsh22\", "
+            "binary=False)"},
       {"*", " (as in input of Abaqus)"},
       {"$ ", " (as in input of Nastran)"},
       {"MeshVersionFormatted", " (as in meshes of Medit)"},
@@ -48,7 +48,8 @@ std::string foreign_head(const std::string &line)
       {"CDF", " (a netCDF file: Exodus)"}};
   const std::size_t text = line.find_first_not_of(" \t");
   for (const auto &[head, program] : heads)
-    if (text != std::string::npos && line.compare(text, std::string_view(head).size(), head) == 0) return program;
+    if (text != std::string::npos && line.compare(text, std::string_view(head).size(), head) == 0)
+      return program;
   return {};
 }
 

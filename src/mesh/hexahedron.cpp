@@ -13,13 +13,13 @@ namespace tribogel
 namespace
 {
 
-/// The least that a cell may have of the volume its three edges at a point would span if they were at right angles. It
-/// tells what is flat from what is round-off of a file's digits.
+/// The least that a cell may have of the volume its three edges at a point would span if they were at right
+/// angles. It tells what is flat from what is round-off of a file's digits.
 constexpr double least_volume = 1e-6;
 
-/// How far a middle may lie from where the other nodes put it, over the length of the longest edge there: that of an
-/// edge as far as in half a circle, but along the edge less, where a quarter makes the cell degenerate at its end;
-/// those of faces and cells by half of what an edge bulges in a quarter of a circle.
+/// How far a middle may lie from where the other nodes put it, over the length of the longest edge there:
+/// that of an edge as far as in half a circle, but along the edge less, where a quarter makes the cell
+/// degenerate at its end; those of faces and cells by half of what an edge bulges in a quarter of a circle.
 constexpr double edge_bulge = 0.5, along_edge = 0.2, off_centre = 0.125;
 
 /// Where Gmsh's nodes are among the lexicographic ones of a cell with so many nodes an edge.
@@ -45,8 +45,8 @@ template <int order> struct Sample {
   std::array<std::array<double, 3>, tensor_nodes<3, order>> slope;
 };
 
-/// Where a map of this order is judged: at its nodes, the corners first, and where elements of order `quadrature`
-/// integrate.
+/// Where a map of this order is judged: at its nodes, the corners first, and where elements of order
+/// `quadrature` integrate.
 template <int order, int quadrature> std::vector<Sample<order>> samples()
 {
   constexpr int nodes = tensor_nodes<3, order>, n = order + 1, m = quadrature + 1;
@@ -64,7 +64,8 @@ template <int order, int quadrature> std::vector<Sample<order>> samples()
   };
   const auto level = [](int k) { return 2. * k / order - 1; };
   for (const int s : slot) add({level(s % n), level(s / n % n), level(s / (n * n))});
-  for (int k = 0; k < m * m * m; ++k) add({gauss.point[k % m], gauss.point[k / m % m], gauss.point[k / m / m]});
+  for (int k = 0; k < m * m * m; ++k)
+    add({gauss.point[k % m], gauss.point[k / m % m], gauss.point[k / m / m]});
   return all;
 }
 
@@ -121,7 +122,8 @@ Place mean(const std::array<Place, 27> &node, const std::vector<int> &corners)
   return X;
 }
 
-/// What the other nodes make of it: the middle of an edge from its ends, those of faces and the cell from edges.
+/// What the other nodes make of it: the middle of an edge from its ends, those of faces and the cell from
+/// edges.
 Place expected_place(const std::array<Place, 27> &node, int k)
 {
   const std::vector<int> corners = corners_of_node(k);
@@ -216,9 +218,11 @@ std::string fault_of(const std::array<Place, 27> &node, std::size_t given, int o
       if (excess(node, other) > excess(node, k)) k = other;
     return k;
   };
-  const int edge = farthest(8, 20), centre = farthest(20, 27); // where centres are expected depends on the edges
-  const std::string allowed = "; allowed: nodes in Gmsh's order, each middle near the middle (-element_order 1 takes "
-                              "the corners only)";
+  const int edge = farthest(8, 20),
+            centre = farthest(20, 27); // where centres are expected depends on the edges
+  const std::string allowed =
+      "; allowed: nodes in Gmsh's order, each middle near the middle (-element_order 1 takes "
+      "the corners only)";
   for (const int k : {edge, centre})
     if (excess(node, k) > 1) {
       const std::string programs = order_of_another(node);
@@ -226,8 +230,8 @@ std::string fault_of(const std::array<Place, 27> &node, std::size_t given, int o
              (programs.empty() ? "" : "; its nodes look like those in the order of " + programs) + allowed;
     }
   if (const auto curved = fold<2, 2>(node))
-    return "is degenerate or folded at " + in_words(*curved) + " with its middles, of which the farthest off is " +
-           place_of_middle(node, edge) + allowed;
+    return "is degenerate or folded at " + in_words(*curved) +
+           " with its middles, of which the farthest off is " + place_of_middle(node, edge) + allowed;
   return {};
 }
 

@@ -23,14 +23,15 @@ inline constexpr int gmsh_corner[8] = {0, 1, 3, 2, 4, 5, 7, 6};
 /// The corners of the node's edge, face or cell, or itself; of 27, in Gmsh's order.
 std::vector<int> corners_of_node(int node);
 
-/// All 27 nodes in Gmsh's order from the 8, 20 or 27 that are given: of 8 the means, of 20 what the serendipity shape
-/// functions put there.
+/// All 27 nodes in Gmsh's order from the 8, 20 or 27 that are given: of 8 the means, of 20 what the
+/// serendipity shape functions put there.
 std::array<Place, 27> all_nodes(const std::vector<Place> &given);
 
 /// Whether the corners are those of a mirrored cell.
 bool is_left_handed(const std::array<Place, 27> &node);
 
-/// Why elements of this order cannot be made of it; empty if they can. Complete but for its subject, "element 7 ".
+/// Why elements of this order cannot be made of it; empty if they can. Complete but for its subject, "element
+/// 7 ".
 std::string fault_of(const std::array<Place, 27> &node, std::size_t given, int order);
 
 /// For messages.

@@ -11,15 +11,15 @@ namespace tribogel
 namespace
 {
 
-/// Width of the zone in which edges grow, over the smallest dimension of the specimens. Measured on the paper scene,
-/// see MeshParameters.
+/// Width of the zone in which edges grow, over the smallest dimension of the specimens. Measured on the paper
+/// scene, see MeshParameters.
 constexpr double zone_over_size = 0.25;
 
 /// Edges in the band of the bottom gel over which the top's rim slides, against the largest.
 constexpr double band_refinement = 8;
 
-/// Wanted edge length at a distance d from a line of singular stress: it grows linearly from `smallest` to `largest`
-/// over the width of a zone.
+/// Wanted edge length at a distance d from a line of singular stress: it grows linearly from `smallest` to
+/// `largest` over the width of a zone.
 struct SizeField {
   double smallest, largest, zone;
   int halves; ///< each edge is cut into so many
@@ -49,8 +49,8 @@ SizeField size_field(double radius, int elements, const MeshParameters &mesh, do
   return {unit / mesh.grading, unit, zone, 1 << mesh.refinements};
 }
 
-/// Distances from a fine end at 0 to `length`, about edges(length) of them, at least one; then cut. What is cut keeps
-/// the nodes it had, and the edges go on growing linearly.
+/// Distances from a fine end at 0 to `length`, about edges(length) of them, at least one; then cut. What is
+/// cut keeps the nodes it had, and the edges go on growing linearly.
 std::vector<double> graded_distances(double length, const SizeField &field)
 {
   const double total = field.edges(length);
@@ -86,21 +86,24 @@ std::vector<double> points_between(double a, double b, bool fine_at_a, bool fine
 namespace
 {
 
-/// Radii of the bottom body: fine at the outer wall and where the top's rim rests. While the gels are pressed the rim
-/// slides outwards over the softer-held bottom gel, by 0.4 mm on the paper scene (approach 0.79 mm): a band as wide as
-/// the approach gets edges of one size. With edges fine at the top's radius only, the pressure at the rim wiggled by 25
+/// Radii of the bottom body: fine at the outer wall and where the top's rim rests. While the gels are pressed
+/// the rim slides outwards over the softer-held bottom gel, by 0.4 mm on the paper scene (approach 0.79 mm):
+/// a band as wide as the approach gets edges of one size. With edges fine at the top's radius only, the
+/// pressure at the rim wiggled by 25
 /// %.
 ///
-/// Neither the band nor what is left of the radius beyond it is cut into anything narrower than the band's refined
-/// edges. In space a ring that is narrower than the arc of one of its cells is high has facets bent like a hoop, and
-/// what their chords miss is wider than they are.
+/// Neither the band nor what is left of the radius beyond it is cut into anything narrower than the band's
+/// refined edges. In space a ring that is narrower than the arc of one of its cells is high has facets bent
+/// like a hoop, and what their chords miss is wider than they are.
 std::vector<double> radii_under_rim(const Scene &scene, const SizeField &field)
 {
   const double rim = std::min(scene.top.radius, scene.bottom.radius), outer = scene.bottom.radius;
   const double narrowest = field.largest / band_refinement;
-  if (outer - rim < narrowest) return points_between(0, outer, false, true, field); // fine at the rim as it is
+  if (outer - rim < narrowest)
+    return points_between(0, outer, false, true, field); // fine at the rim as it is
   double travel = 0;
-  for (const Phase &phase : scene.schedule) travel = std::max({travel, phase.start_approach, phase.end_approach});
+  for (const Phase &phase : scene.schedule)
+    travel = std::max({travel, phase.start_approach, phase.end_approach});
   SizeField in_band = field;
   in_band.smallest = std::max(field.smallest, narrowest);
   const auto append = [](std::vector<double> &points, const std::vector<double> &more) {
@@ -110,7 +113,8 @@ std::vector<double> radii_under_rim(const Scene &scene, const SizeField &field)
   double end = rim; // of the band
   if (0.5 * (outer - rim) >= narrowest) {
     end = std::min(rim + std::max(narrowest, travel - scene.initial_gap), 0.5 * (rim + outer));
-    append(R, points_between(rim, end, false, false, {in_band.smallest, in_band.smallest, field.zone, field.halves}));
+    append(R, points_between(rim, end, false, false,
+                             {in_band.smallest, in_band.smallest, field.zone, field.halves}));
   }
   double middle = end;
   if (0.5 * (outer - end) >= narrowest) {
@@ -186,7 +190,8 @@ private:
 };
 
 /// The outline's edges, in the order of the four sides.
-void name_sides(const MeridianBlock &block, const BlockGrid &grid, const GridNumbers &number, SerialMesh &mesh)
+void name_sides(const MeridianBlock &block, const BlockGrid &grid, const GridNumbers &number,
+                SerialMesh &mesh)
 {
   const int right = grid.columns() - 1, top = grid.rows() - 1;
   const auto edge = [&](int a, int b, Side side) { mesh.boundary.push_back({{a, b, -1, -1}, side}); };
@@ -211,9 +216,10 @@ SerialMesh serial_mesh(const std::vector<MeridianBlock> &blocks)
     for (int j = 0; j + 1 < grid.rows(); ++j)
       for (int i = 0; i + 1 < grid.columns(); ++i)
         if (grid.has_cell(i, j))
-          mesh.cell.push_back({{number(i, j), number(i + 1, j), number(i, j + 1), number(i + 1, j + 1), -1, -1, -1, -1},
-                               block.body,
-                               0.5 * (block.R[i] + block.R[i + 1])});
+          mesh.cell.push_back(
+              {{number(i, j), number(i + 1, j), number(i, j + 1), number(i + 1, j + 1), -1, -1, -1, -1},
+               block.body,
+               0.5 * (block.R[i] + block.R[i + 1])});
     name_sides(block, grid, number, mesh);
     if (const auto shape = block.shape)
       mesh.shape[block.body] = [shape](const std::array<double, 3> &X) {

@@ -11,8 +11,8 @@ namespace tribogel
 namespace
 {
 
-/// DMPlex's order of a cell's vertices, counter-clockwise and, for hexahedra, with the first four seen from inside, as
-/// lexicographic numbers.
+/// DMPlex's order of a cell's vertices, counter-clockwise and, for hexahedra, with the first four seen from
+/// inside, as lexicographic numbers.
 constexpr int plex_corner[2][8] = {{0, 1, 3, 2}, {0, 2, 3, 1, 4, 5, 7, 6}};
 
 /// Cells and vertex positions as DMPlex wants them.
@@ -91,8 +91,8 @@ PetscErrorCode Mesh::Create(MPI_Comm comm, const SerialMesh &serial)
   PetscFunctionReturn(0);
 }
 
-/// Parts of equal cell count in the order of the cells' keys, through both bodies: a graph partitioner would give each
-/// body to ranks of its own and make all contact off-process.
+/// Parts of equal cell count in the order of the cells' keys, through both bodies: a graph partitioner would
+/// give each body to ranks of its own and make all contact off-process.
 PetscErrorCode Mesh::Distribute(const SerialMesh &serial)
 {
   MPI_Comm comm;

@@ -15,15 +15,16 @@ namespace tribogel
 namespace
 {
 
-/// How far outside of a face its neighbour is looked for, over the face's size: what lies nearer is on the face; what
-/// lies nearer than the second is so near that the mesh cannot tell whether it will touch.
+/// How far outside of a face its neighbour is looked for, over the face's size: what lies nearer is on the
+/// face; what lies nearer than the second is so near that the mesh cannot tell whether it will touch.
 constexpr double touching = 1e-3, close_by = 0.1;
 
 using quad_search::Box;
 using quad_search::Corner;
 
 constexpr const char *how_to_join =
-    "; allowed: one node where cells of a body meet (in Gmsh: BooleanFragments of the volumes of this body before "
+    "; allowed: one node where cells of a body meet (in Gmsh: BooleanFragments of the volumes of this body "
+    "before "
     "meshing, or gmsh.model.mesh.removeDuplicateNodes for them; Coherence Mesh would join top and "
     "bottom where they touch, too)";
 
@@ -150,21 +151,24 @@ void expect_joined(GmshBodies &bodies, const std::vector<Touch> &touches)
       (!touch.near ? slits : matches(mesh, face, mesh.cell[touch.cell]) ? matching : others).push_back(touch);
     }
     const auto on_element = [&](const Touch &touch) {
-      return example(bodies, bodies.outer[touch.face]) + " on element " + std::to_string(bodies.element[touch.cell]);
+      return example(bodies, bodies.outer[touch.face]) + " on element " +
+             std::to_string(bodies.element[touch.cell]);
     };
     const std::string of_body = std::string(" of ") + body_names[body];
     if (!others.empty())
-      throw UserError{"faces" + of_body + " lie on or in other cells of it that do not have these faces (" +
-                      in_number(others.size()) + on_element(others.front()) +
-                      "): meshes that do not match (hanging nodes) or that overlap; allowed: cells that have whole "
-                      "faces in common (in Gmsh: BooleanFragments of the volumes of this body before meshing)"};
+      throw UserError{
+          "faces" + of_body + " lie on or in other cells of it that do not have these faces (" +
+          in_number(others.size()) + on_element(others.front()) +
+          "): meshes that do not match (hanging nodes) or that overlap; allowed: cells that have whole "
+          "faces in common (in Gmsh: BooleanFragments of the volumes of this body before meshing)"};
     if (!matching.empty())
       throw UserError{"faces" + of_body + " lie on other faces of it with nodes of their own (" +
                       in_number(matching.size()) + on_element(matching.front()) +
                       "), so that its parts are not joined there" + how_to_join};
     expect_single_nodes(bodies, body);
     if (!slits.empty())
-      bodies.warnings.push_back("faces" + of_body + " lie within a tenth of their size of other cells of it (" +
+      bodies.warnings.push_back("faces" + of_body +
+                                " lie within a tenth of their size of other cells of it (" +
                                 in_number(slits.size()) + on_element(slits.front()) +
                                 "): parts that are not joined, or a slit whose sides do not feel each other");
   }
@@ -193,16 +197,17 @@ void expect_held(GmshBodies &bodies, bool has_top)
   }
   if (!loose.empty()) {
     const int body = mesh.cell[loose.front()].body;
-    throw UserError{std::string("cells of ") + body_names[body] + " are held by no plate (" + in_number(loose.size()) +
-                    place(loose.front()) + "): no chain of whole faces joins them to one of " +
+    throw UserError{std::string("cells of ") + body_names[body] + " are held by no plate (" +
+                    in_number(loose.size()) + place(loose.front()) +
+                    "): no chain of whole faces joins them to one of " +
                     (!has_top           ? "bottom_plate or top_plate"
                      : body == top_body ? "top_plate"
                                         : "bottom_plate") +
                     "; allowed: parts with a face on their plate"};
   }
   if (!on_one.empty())
-    bodies.warnings.push_back("cells are joined to one plate only and bear nothing (" + in_number(on_one.size()) +
-                              place(on_one.front()) + ")");
+    bodies.warnings.push_back("cells are joined to one plate only and bear nothing (" +
+                              in_number(on_one.size()) + place(on_one.front()) + ")");
 }
 
 void expect_apart(GmshBodies &bodies, const std::vector<Touch> &touches)
@@ -216,15 +221,17 @@ void expect_apart(GmshBodies &bodies, const std::vector<Touch> &touches)
   }
   const auto text = [&](const std::vector<const OuterFace *> &faces) {
     const int body = mesh.cell[faces.front()->cell].body;
-    const auto count = std::count_if(faces.begin(), faces.end(),
-                                     [&](const OuterFace *face) { return mesh.cell[face->cell].body == body; });
-    return std::string("faces of ") + body_names[body] + " in no contact surface lie on or in " + body_names[1 - body] +
-           " (" + in_number(static_cast<std::size_t>(count)) + example(bodies, *faces.front()) +
-           "): the gels pass through each other there";
+    const auto count = std::count_if(faces.begin(), faces.end(), [&](const OuterFace *face) {
+      return mesh.cell[face->cell].body == body;
+    });
+    return std::string("faces of ") + body_names[body] + " in no contact surface lie on or in " +
+           body_names[1 - body] + " (" + in_number(static_cast<std::size_t>(count)) +
+           example(bodies, *faces.front()) + "): the gels pass through each other there";
   };
   if (!nameless.empty())
-    throw UserError{text(nameless) + "; allowed: bodies that touch with top_contact and bottom_contact, or, where they "
-                                     "are meant not to feel each other, a physical surface of another name"};
+    throw UserError{text(nameless) +
+                    "; allowed: bodies that touch with top_contact and bottom_contact, or, where they "
+                    "are meant not to feel each other, a physical surface of another name"};
   if (!meant.empty()) bodies.warnings.push_back(text(meant));
 }
 

@@ -21,7 +21,8 @@ namespace tribogel
 namespace
 {
 
-/// How far from a plane or from z = 0 a node may lie that is meant to be there, over the height: files have few digits.
+/// How far from a plane or from z = 0 a node may lie that is meant to be there, over the height: files have
+/// few digits.
 constexpr double flat = 1e-6;
 
 using Place = std::array<double, 3>;
@@ -30,14 +31,16 @@ using Place = std::array<double, 3>;
 std::array<Place, 9> nodes_of(const SerialMesh &mesh, const std::array<int, 4> &around)
 {
   const auto at = [&](const std::vector<int> &vertices) {
-    if (const auto found = mesh.middle.find(middle_key(vertices)); found != mesh.middle.end()) return found->second;
+    if (const auto found = mesh.middle.find(middle_key(vertices)); found != mesh.middle.end())
+      return found->second;
     Place mean{};
     for (const int v : vertices)
       for (int i = 0; i < 3; ++i) mean[i] += mesh.vertex[v][i] / static_cast<double>(vertices.size());
     return mean;
   };
   const auto [a, b, c, d] = around;
-  return {at({a}), at({a, b}), at({b}), at({a, d}), at({a, b, c, d}), at({b, c}), at({d}), at({c, d}), at({c})};
+  return {at({a}),    at({a, b}), at({b}),    at({a, d}), at({a, b, c, d}),
+          at({b, c}), at({d}),    at({c, d}), at({c})};
 }
 
 struct Extent {
@@ -109,7 +112,8 @@ SpecimenSizes measure(const SerialMesh &mesh, bool has_top)
     throw UserError{"top_contact has its lowest point at z = " + to_text(slave.low) +
                     " mm; allowed: z >= 0, above bottom_contact"};
   if (!(of(Side::top_plate).low > slave.high))
-    throw UserError{"top_plate at z = " + to_text(of(Side::top_plate).low) + " mm; allowed: above top_contact"};
+    throw UserError{"top_plate at z = " + to_text(of(Side::top_plate).low) +
+                    " mm; allowed: above top_contact"};
   sizes.gap = std::max(0.0, slave.low);
   sizes.height[top_body] = of(Side::top_plate).low - sizes.gap;
   sizes.radius[top_body] = std::sqrt(slave.area / std::numbers::pi);
@@ -130,7 +134,8 @@ std::string read_file(SceneInput &input, SerialMesh &mesh, SpecimenSizes &sizes)
     return file + "does not exist; allowed: " +
            (scene.output.restart ? "with -restart, -mesh_file with the path that the mesh of that run has now"
                                  : "a Gmsh file, its path relative to the working directory");
-  if (!std::filesystem::is_regular_file(path, ignored)) return file + "is no regular file; allowed: a Gmsh file";
+  if (!std::filesystem::is_regular_file(path, ignored))
+    return file + "is no regular file; allowed: a Gmsh file";
   std::ifstream stream(path);
   if (!stream) return file + "cannot be read; allowed: a Gmsh file";
   try {
@@ -149,8 +154,8 @@ std::string read_file(SceneInput &input, SerialMesh &mesh, SpecimenSizes &sizes)
     return file + error.text;
   }
   if (static_cast<double>(mesh.cell.size()) > most_elements(scene))
-    return file + std::to_string(mesh.cell.size()) + " hexahedra; allowed: at most " + to_text(most_elements(scene)) +
-           " (matrix positions are 32-bit numbers)";
+    return file + std::to_string(mesh.cell.size()) + " hexahedra; allowed: at most " +
+           to_text(most_elements(scene)) + " (matrix positions are 32-bit numbers)";
   return {};
 }
 

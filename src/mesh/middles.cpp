@@ -36,7 +36,8 @@ PetscErrorCode Share(MPI_Comm comm, const SerialMesh &serial, std::map<Key, std:
 
 } // namespace
 
-/// Before the mesh was distributed the vertices were numbered after the cells, in the order of the serial mesh.
+/// Before the mesh was distributed the vertices were numbered after the cells, in the order of the serial
+/// mesh.
 PetscErrorCode Mesh::PlaceMiddles(const SerialMesh &serial)
 {
   int first = static_cast<int>(serial.cell.size());

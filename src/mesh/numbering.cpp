@@ -7,8 +7,9 @@ namespace tribogel
 namespace
 {
 
-/// The table of prescribed displacement components, bit i for component i. In the half plane: u_R, u_theta, u_Z; a
-/// lubricated plate lets the gel slide radially, but turns it. In 3-D: u_x, u_y, u_z; a lubricated plate only bears.
+/// The table of prescribed displacement components, bit i for component i. In the half plane: u_R, u_theta,
+/// u_Z; a lubricated plate lets the gel slide radially, but turns it. In 3-D: u_x, u_y, u_z; a lubricated
+/// plate only bears.
 unsigned prescribed_components(int dim, const Node &node, PlateBond bond)
 {
   constexpr unsigned first = 1, second = 2, third = 4, all = 7;
@@ -60,8 +61,8 @@ PetscErrorCode Mesh::ListNodes(const Scene &scene)
       if (inside) node.sides |= 1u << k;
     }
     node.prescribed = prescribed_components(dim, node, scene.plate_bond);
-    // A vertex on the axis has no dual weight at order 2 (THEORY 3.1); a prescribed node's pressure belongs to the
-    // glue.
+    // A vertex on the axis has no dual weight at order 2 (THEORY 3.1); a prescribed node's pressure belongs
+    // to the glue.
     const bool weightless = order == 2 && node.on(Side::axis);
     const bool bonded = node.on(Side::top_plate) || node.on(Side::bottom_plate);
     const bool free_wall = scene.plate_contact && node.on(Side::wall) && !node.on(Side::master);
@@ -108,8 +109,9 @@ PetscErrorCode Mesh::Number()
   PetscFunctionReturn(0);
 }
 
-/// Elements of order 1 have no nodes on edges and facets, and once the surfaces are known nobody asks for these: three
-/// quarters of a mesh of hexahedra. Cells and vertices keep their numbers, and so do the unknowns.
+/// Elements of order 1 have no nodes on edges and facets, and once the surfaces are known nobody asks for
+/// these: three quarters of a mesh of hexahedra. Cells and vertices keep their numbers, and so do the
+/// unknowns.
 PetscErrorCode Mesh::DropMiddles()
 {
   DmHandle corners;

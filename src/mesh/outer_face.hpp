@@ -12,7 +12,8 @@ namespace tribogel
 Place plus(const Place &a, double by, const Place &b);
 double length(const Place &a);
 
-/// The normal of a flat quadrilateral, outwards, as long as its area [mm^2]: half the product of the diagonals.
+/// The normal of a flat quadrilateral, outwards, as long as its area [mm^2]: half the product of the
+/// diagonals.
 Place area_vector(const SerialMesh &mesh, const OuterFace &face);
 
 /// On the face between its corners, xi and eta from 0 to 1.

@@ -1,9 +1,10 @@
 /// A block's grid whose lower outer corner can open to a flat angle.
 ///
-/// At a body's edge of 90 degrees a grid has one quadrilateral, with a right angle there. Where the body rolls over
-/// that edge, its two outer sides come to lie in one line, and the quadrilateral turns inside out, whatever the gel can
-/// bear. So the corner's cells are taken out and the two sides that they leave are joined to one diagonal. At the edge
-/// now two quadrilaterals meet, with half of the angle each, and they are sound until the angle is 360 degrees:
+/// At a body's edge of 90 degrees a grid has one quadrilateral, with a right angle there. Where the body
+/// rolls over that edge, its two outer sides come to lie in one line, and the quadrilateral turns inside out,
+/// whatever the gel can bear. So the corner's cells are taken out and the two sides that they leave are
+/// joined to one diagonal. At the edge now two quadrilaterals meet, with half of the angle each, and they are
+/// sound until the angle is 360 degrees:
 ///
 ///     +---+---+---+           +---+---+---+
 ///     |   |   |   |           |   |   |   |
@@ -50,11 +51,11 @@ private:
 
 /// How many cells of the top gel's lower edge to give way, in each direction; 0: the grid is left as it is.
 ///
-/// The edge rolls where friction holds it against the plates' motion: with mu = 0.3 the paper's scene, pressed and
-/// turned by 0.08 rad, opens it to 180 degrees over 0.05 mm, and a grid of 12 elements stops there. With mu < 0.1 the
-/// edge slides, and longer edges do not follow it: both do without. A real edge is round. Elastic gels, mu = 0.5, 10
-/// elements, edges rounded over `radius` by the block's shape and sharp ones on the same grid: N and T after 0.1
-/// and 1.2 rad
+/// The edge rolls where friction holds it against the plates' motion: with mu = 0.3 the paper's scene,
+/// pressed and turned by 0.08 rad, opens it to 180 degrees over 0.05 mm, and a grid of 12 elements stops
+/// there. With mu < 0.1 the edge slides, and longer edges do not follow it: both do without. A real edge is
+/// round. Elastic gels, mu = 0.5, 10 elements, edges rounded over `radius` by the block's shape and sharp
+/// ones on the same grid: N and T after 0.1 and 1.2 rad
 ///
 ///     radius [mm]  0.2               0.1               0.025
 ///     round        302.94   347.09   303.33   347.67   303.57   347.73   N [N] and T [N mm] at 0.1 rad
@@ -62,9 +63,10 @@ private:
 ///     round        320.74  1016.00   320.74  1016.61   320.79  1017.08   at 1.2 rad
 ///     sharp        320.75  1016.83   320.75  1016.86
 ///
-/// The round and the sharp edge differ by 0.2 % while stuck, by 0.1 % in full slip: the sharp one stays. Meshes with
-/// edges of 0.025 mm there may fold all the same: with the radius 0.05 mm the round edge at 0.16 rad and the sharp one
-/// at 0.11; the default grid with 24 elements at 0.12 rad, which with a grading of 13 does not.
+/// The round and the sharp edge differ by 0.2 % while stuck, by 0.1 % in full slip: the sharp one stays.
+/// Meshes with edges of 0.025 mm there may fold all the same: with the radius 0.05 mm the round edge at 0.16
+/// rad and the sharp one at 0.11; the default grid with 24 elements at 0.12 rad, which with a grading of 13
+/// does not.
 int split_of_lower_edge(const Scene &scene, const MeridianBlock &top, double zone);
 
 } // namespace tribogel

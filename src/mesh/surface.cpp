@@ -10,8 +10,8 @@ namespace tribogel
 namespace
 {
 
-/// One facet as it travels between ranks: global and original numbers of its points and their positions, in the order
-/// of Surface::facet.
+/// One facet as it travels between ranks: global and original numbers of its points and their positions, in
+/// the order of Surface::facet.
 struct FacetRecord {
   PetscInt cell, side; ///< original number of its cell, place in that: an order of the facets
   PetscInt key[9];     ///< -1 where unused
@@ -32,8 +32,8 @@ std::array<int, 9> face_slots(int middle)
 }
 
 /// Points of the facet with this middle slot, in the order of Surface::facet; -1 where there is no node.
-std::array<PetscInt, 9> facet_points(const Mesh &mesh, const std::array<PetscInt, 27> &point, int middle, int direction,
-                                     const std::map<PetscInt, const Node *> &node_of_point)
+std::array<PetscInt, 9> facet_points(const Mesh &mesh, const std::array<PetscInt, 27> &point, int middle,
+                                     int direction, const std::map<PetscInt, const Node *> &node_of_point)
 {
   std::array<PetscInt, 9> points;
   points.fill(-1);
@@ -46,7 +46,15 @@ std::array<PetscInt, 9> facet_points(const Mesh &mesh, const std::array<PetscInt
     return points;
   }
   const int along = middle == 1 || middle == 7 ? 1 : 3;
-  points = {point[middle - along], point[middle + along], mesh.order == 2 ? point[middle] : -1, -1, -1, -1, -1, -1, -1};
+  points = {point[middle - along],
+            point[middle + along],
+            mesh.order == 2 ? point[middle] : -1,
+            -1,
+            -1,
+            -1,
+            -1,
+            -1,
+            -1};
   if (node_of_point.at(points[0])->X[direction] > node_of_point.at(points[1])->X[direction])
     std::swap(points[0], points[1]);
   return points;
@@ -84,7 +92,9 @@ PetscErrorCode LocalFacets(const Mesh &mesh, Side side, int body, int direction,
     }
     const auto points = facet_points(mesh, point, record.side, direction, node_of_point);
     for (int k = 0; k < 9; ++k) {
-      record.key[k] = points[k] < 0 ? -1 : number[points[k]] < 0 ? -(number[points[k]] + 1) : number[points[k]];
+      record.key[k] = points[k] < 0           ? -1
+                      : number[points[k]] < 0 ? -(number[points[k]] + 1)
+                                              : number[points[k]];
       if (points[k] >= 0) std::copy_n(node_of_point.at(points[k])->X.begin(), 3, record.X[k]);
     }
     facets.push_back(record);
@@ -102,7 +112,8 @@ PetscErrorCode GatherFacets(MPI_Comm comm, int dim, int direction, std::vector<F
   PetscCallMPI(MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, comm));
   for (int r = 1; r < size; ++r) starts[r] = starts[r - 1] + counts[r - 1];
   std::vector<FacetRecord> all((starts.back() + counts.back()) / sizeof(FacetRecord));
-  PetscCallMPI(MPI_Allgatherv(facets.data(), mine, MPI_BYTE, all.data(), counts.data(), starts.data(), MPI_BYTE, comm));
+  PetscCallMPI(MPI_Allgatherv(facets.data(), mine, MPI_BYTE, all.data(), counts.data(), starts.data(),
+                              MPI_BYTE, comm));
   std::sort(all.begin(), all.end(), [dim, direction](const auto &a, const auto &b) {
     if (dim == 2) return a.X[0][direction] < b.X[0][direction];
     return std::pair(a.cell, a.side) < std::pair(b.cell, b.side);
@@ -111,8 +122,8 @@ PetscErrorCode GatherFacets(MPI_Comm comm, int dim, int direction, std::vector<F
   PetscFunctionReturn(0);
 }
 
-/// Fills the unknowns' global numbers, which each node's owner knows, on every rank. `index` finds the surface's node
-/// of a global point number.
+/// Fills the unknowns' global numbers, which each node's owner knows, on every rank. `index` finds the
+/// surface's node of a global point number.
 PetscErrorCode NumberUnknowns(const Mesh &mesh, const PetscInt *number, const std::map<PetscInt, int> &index,
                               Surface &surface)
 {
@@ -136,8 +147,8 @@ PetscErrorCode NumberUnknowns(const Mesh &mesh, const PetscInt *number, const st
     surface.node[place->second].local = static_cast<int>(n);
   }
   PetscCall(ISLocalToGlobalMappingRestoreIndices(mapping, &to_global));
-  PetscCallMPI(
-      MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<PetscMPIInt>(numbers.size()), MPIU_INT, MPI_MAX, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<PetscMPIInt>(numbers.size()), MPIU_INT,
+                             MPI_MAX, comm));
   for (std::size_t n = 0; n < surface.node.size(); ++n) {
     for (int i = 0; i < 3; ++i) {
       surface.node[n].displacement[i] = numbers[7 * n + i];
@@ -184,8 +195,8 @@ PetscErrorCode GatherSurface(const Mesh &mesh, Side side, int body, int directio
       const int k = mesh.dim == 2 && n < 3 ? chain_order[n] : n;
       if (record.key[k] >= 0) facet[k] = add(record, k);
     }
-    PetscCheck(mesh.dim == 3 || surface.facet.empty() || surface.facet.back()[1] == facet[0], comm, PETSC_ERR_PLIB,
-               "a contact surface is not one chain");
+    PetscCheck(mesh.dim == 3 || surface.facet.empty() || surface.facet.back()[1] == facet[0], comm,
+               PETSC_ERR_PLIB, "a contact surface is not one chain");
     surface.facet.push_back(facet);
   }
 

@@ -68,7 +68,8 @@ public:
     }
     judge(group, certain, "go on where its faces end", "they meet nothing");
     if (!suspicious.empty())
-      bodies.warnings.push_back(found(group, suspicious) + " look at the other gel, which may come as near as that" +
+      bodies.warnings.push_back(found(group, suspicious) +
+                                " look at the other gel, which may come as near as that" +
                                 consequence("they meet nothing") + in_words_allowed(group));
   }
 
@@ -86,7 +87,8 @@ private:
   /// Lowest and highest vertex.
   std::array<double, 2> heights(std::size_t f) const
   {
-    std::array<double, 2> z{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    std::array<double, 2> z{std::numeric_limits<double>::infinity(),
+                            -std::numeric_limits<double>::infinity()};
     for (const int v : bodies.outer[f].around) {
       z[0] = std::min(z[0], mesh.vertex[v][2]);
       z[1] = std::max(z[1], mesh.vertex[v][2]);
@@ -96,7 +98,8 @@ private:
 
   std::array<double, 2> heights(Side side) const
   {
-    std::array<double, 2> z{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    std::array<double, 2> z{std::numeric_limits<double>::infinity(),
+                            -std::numeric_limits<double>::infinity()};
     for (std::size_t f = 0; f < bodies.outer.size(); ++f)
       if (bodies.outer[f].side == side) {
         const auto [low, high] = heights(f);
@@ -119,11 +122,13 @@ private:
   double nearest(std::size_t f) const
   {
     double r = std::numeric_limits<double>::infinity();
-    for (const int v : bodies.outer[f].around) r = std::min(r, std::hypot(mesh.vertex[v][0], mesh.vertex[v][1]));
+    for (const int v : bodies.outer[f].around)
+      r = std::min(r, std::hypot(mesh.vertex[v][0], mesh.vertex[v][1]));
     return r;
   }
 
-  using Edges = std::map<std::array<int, 2>, std::vector<std::size_t>>; ///< outer faces of each edge of the body
+  using Edges =
+      std::map<std::array<int, 2>, std::vector<std::size_t>>; ///< outer faces of each edge of the body
 
   Edges edges_of(int body) const
   {
@@ -144,8 +149,8 @@ private:
     return edges;
   }
 
-  /// Free faces that lie in one plane with a face of the group and are joined to it by such, and those that faces of
-  /// the group surround.
+  /// Free faces that lie in one plane with a face of the group and are joined to it by such, and those that
+  /// faces of the group surround.
   std::vector<bool> continuations(const Group &group) const
   {
     const Edges edges = edges_of(group.body);
@@ -189,13 +194,17 @@ private:
 
   bool in_one_plane(std::size_t f, std::size_t g) const
   {
-    const Place n = plus({}, 1 / length(normals[f]), normals[f]), m = plus({}, 1 / length(normals[g]), normals[g]);
-    const Place offset = plus(on_face(mesh, bodies.outer[g], 0.5, 0.5), -1, on_face(mesh, bodies.outer[f], 0.5, 0.5));
+    const Place n = plus({}, 1 / length(normals[f]), normals[f]),
+                m = plus({}, 1 / length(normals[g]), normals[g]);
+    const Place offset =
+        plus(on_face(mesh, bodies.outer[g], 0.5, 0.5), -1, on_face(mesh, bodies.outer[f], 0.5, 0.5));
     return length(plus(n, -1, m)) < in_plane &&
-           std::abs(n[0] * offset[0] + n[1] * offset[1] + n[2] * offset[2]) < in_plane * std::max(size(f), size(g));
+           std::abs(n[0] * offset[0] + n[1] * offset[1] + n[2] * offset[2]) <
+               in_plane * std::max(size(f), size(g));
   }
 
-  /// "faces of top with 12 mm^2, 20 % of what top_contact and they are, (4, e.g. that of element 7 at (1, 2, 3))".
+  /// "faces of top with 12 mm^2, 20 % of what top_contact and they are, (4, e.g. that of element 7 at (1, 2,
+  /// 3))".
   std::string found(const Group &group, const std::vector<std::size_t> &faces) const
   {
     double area = 0, named = 0;
@@ -203,8 +212,9 @@ private:
     for (std::size_t f = 0; f < bodies.outer.size(); ++f)
       if (bodies.outer[f].side == group.side) named += length(normals[f]);
     return std::string(group.name) + " lacks faces of " + body_names[group.body] + ": " + five_digits(area) +
-           " mm^2, " + five_digits(std::round(1000 * area / (area + named)) / 10) + " % of the area with them (" +
-           in_number(faces.size()) + example(bodies, bodies.outer[faces.front()]) + "),";
+           " mm^2, " + five_digits(std::round(1000 * area / (area + named)) / 10) +
+           " % of the area with them (" + in_number(faces.size()) +
+           example(bodies, bodies.outer[faces.front()]) + "),";
   }
 
   static std::string consequence(const std::string &what) { return "; as it is, " + what; }
@@ -215,14 +225,16 @@ private:
            ", or, if they are meant to be free, in a physical surface of any other name";
   }
 
-  /// What belongs to the group but is not in it: refused, or warned of where the file calls it something else.
-  void judge(const Group &group, const std::vector<std::size_t> &faces, const std::string &why, const std::string &what)
+  /// What belongs to the group but is not in it: refused, or warned of where the file calls it something
+  /// else.
+  void judge(const Group &group, const std::vector<std::size_t> &faces, const std::string &why,
+             const std::string &what)
   {
     std::vector<std::size_t> nameless, meant;
     for (const std::size_t f : faces) (bodies.outer[f].other_group.empty() ? nameless : meant).push_back(f);
     if (!nameless.empty())
-      throw UserError{found(group, nameless) + " which " + why + " and are in no physical surface" + consequence(what) +
-                      in_words_allowed(group)};
+      throw UserError{found(group, nameless) + " which " + why + " and are in no physical surface" +
+                      consequence(what) + in_words_allowed(group)};
     if (!meant.empty())
       bodies.warnings.push_back(found(group, meant) + " which " + why + " but are in the physical surface '" +
                                 bodies.outer[meant.front()].other_group + "'" + consequence(what));

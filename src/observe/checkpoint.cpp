@@ -31,7 +31,8 @@ template <class Visitor> PetscErrorCode VisitCounts(SolveCounts &counts, Visitor
   PetscCall(visit("linear_iterations", counts.linear_iterations));
   PetscCall(visit("pattern_rebuilds", counts.pattern_rebuilds));
   for (int k = 0; k < failure_kinds; ++k)
-    PetscCall(visit(std::string("failures_") + failure_names[k], counts.failures[static_cast<std::size_t>(k)]));
+    PetscCall(
+        visit(std::string("failures_") + failure_names[k], counts.failures[static_cast<std::size_t>(k)]));
   PetscFunctionReturn(0);
 }
 
@@ -53,9 +54,10 @@ PetscErrorCode ReadStoredRun(MPI_Comm comm, const std::string &directory, Stored
   PetscCall(OnFirstProcess(comm, [&] {
     const std::string why = read_data_file(checkpoint_in(stored.directory), kind, stored.data);
     if (why.empty()) stored.options = stored.data.texts["options"];
-    return why.empty() ? why
-                       : "-restart = " + stored.directory + ": " + why +
-                             "; allowed: the directory of a run of this version that has written a checkpoint";
+    return why.empty()
+               ? why
+               : "-restart = " + stored.directory + ": " + why +
+                     "; allowed: the directory of a run of this version that has written a checkpoint";
   }));
   PetscCall(Broadcast(comm, stored.options));
   PetscFunctionReturn(0);
@@ -105,8 +107,8 @@ PetscErrorCode Checkpoint::Restore(const StoredRun &stored, Problem &problem)
   PetscCall(load.Table("rows", rows));
   PetscCall(load.Table("phases", phases));
   PetscCall(load.Table("bytes", bytes));
-  const bool whole = rows_of(rows, recorder.rows) && !recorder.rows.empty() && rows_of(phases, recorder.phases) &&
-                     bytes.size() == recorder.bytes.size();
+  const bool whole = rows_of(rows, recorder.rows) && !recorder.rows.empty() &&
+                     rows_of(phases, recorder.phases) && bytes.size() == recorder.bytes.size();
   PetscCall(OnFirstProcess(comm, [&]() -> std::string {
     const std::string place = "-restart = " + stored.directory + ": ";
     if (!load.complaint.empty() || !whole)
@@ -149,8 +151,9 @@ PetscErrorCode Checkpoint::Step(Problem &problem, const StepReport &report)
   if (stop && problem.stop_reason.empty()) {
     char when[64];
     std::snprintf(when, sizeof when, " at t = %.10g s, to be continued with -restart ", problem.state.time);
-    problem.stop_request = std::string("stopped by ") + (wish[signal] ? stop_signal_name(wish[signal]) : "-wall_time") +
-                           when + output.directory;
+    problem.stop_request = std::string("stopped by ") +
+                           (wish[signal] ? stop_signal_name(wish[signal]) : "-wall_time") + when +
+                           output.directory;
   }
   PetscFunctionReturn(0);
 }
@@ -173,7 +176,8 @@ PetscErrorCode Checkpoint::Write(Problem &problem)
   PetscCall(VisitCost(cost, save));
   std::string complaint;
   const auto write = [&] {
-    if (std::string failed = recorder.bring_to_disk(); !failed.empty()) return failed + recorder.way_out(problem);
+    if (std::string failed = recorder.bring_to_disk(); !failed.empty())
+      return failed + recorder.way_out(problem);
     data.numbers["rows"] = numbers_of(recorder.rows);
     data.numbers["phases"] = numbers_of(recorder.phases);
     data.numbers["bytes"].assign(recorder.bytes.begin(), recorder.bytes.end());

@@ -1,6 +1,6 @@
-/// checkpoint.h5: all that a run needs to go on as if it had never stopped, on any number of ranks. Written at the
-/// start, at each phase's end, every `-checkpoint_every` seconds, and when the run is asked to stop: by a signal, or
-/// because `-wall_time` would be over before the end of the next step.
+/// checkpoint.h5: all that a run needs to go on as if it had never stopped, on any number of ranks. Written
+/// at the start, at each phase's end, every `-checkpoint_every` seconds, and when the run is asked to stop:
+/// by a signal, or because `-wall_time` would be over before the end of the next step.
 #pragma once
 
 #include "observe/checkpoint_exchange.hpp"
@@ -21,16 +21,18 @@ struct StoredRun {
 /// Reads the checkpoint of the run in `directory`. Throws UserError if there is none. Collective.
 PetscErrorCode ReadStoredRun(MPI_Comm comm, const std::string &directory, StoredRun &stored);
 
-/// Throws UserError, which begins with `option`, if the mesh, by its digest on the first process, is not that of the
-/// stored run. Collective.
+/// Throws UserError, which begins with `option`, if the mesh, by its digest on the first process, is not that
+/// of the stored run. Collective.
 PetscErrorCode ExpectSameMesh(MPI_Comm comm, const StoredRun &stored, const std::string &digest,
                               const std::string &option);
 
 class Checkpoint : public Observer
 {
 public:
-  /// `options` as text_of_options gives them, the mesh by its digest on the first process, `wall_start` as MPI_Wtime.
-  Checkpoint(Recorder &recorder, OutputParameters output, std::string options, std::string mesh, double wall_start);
+  /// `options` as text_of_options gives them, the mesh by its digest on the first process, `wall_start` as
+  /// MPI_Wtime.
+  Checkpoint(Recorder &recorder, OutputParameters output, std::string options, std::string mesh,
+             double wall_start);
 
   /// Problem, recorder and costs as they were. Throws UserError if the checkpoint does not fit. Collective.
   PetscErrorCode Restore(const StoredRun &stored, Problem &problem);
@@ -38,7 +40,8 @@ public:
   PetscErrorCode Start(Problem &problem) override;
   PetscErrorCode Step(Problem &problem, const StepReport &report) override;
 
-  /// One that cannot be written ends the run and leaves the last one; nor is there a new one where rows are missing.
+  /// One that cannot be written ends the run and leaves the last one; nor is there a new one where rows are
+  /// missing.
   PetscErrorCode Write(Problem &problem);
 
   /// Of this program and of those it continues. Collective.

@@ -25,7 +25,8 @@ PetscErrorCode NaturalOrders::SetUp(const Problem &problem)
   PetscFunctionBeginUser;
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.state.U)));
   for (std::size_t k = 0; k < problem.group.size(); ++k) // a node has one unknown of each group
-    keys.push_back(static_cast<long long>(problem.mesh.nodes[problem.node_of_row[k]].natural) * residual_groups +
+    keys.push_back(static_cast<long long>(problem.mesh.nodes[problem.node_of_row[k]].natural) *
+                       residual_groups +
                    problem.group[k]);
   PetscCall(unknowns.SetUp(comm, keys, std::vector<int>(keys.size(), 1)));
 

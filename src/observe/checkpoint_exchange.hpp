@@ -1,5 +1,5 @@
-/// The two directions in which a checkpoint's visitors carry numbers, between all processes and the first one's
-/// DataFile. All calls are collective.
+/// The two directions in which a checkpoint's visitors carry numbers, between all processes and the first
+/// one's DataFile. All calls are collective.
 #pragma once
 
 #include "solve/problem.hpp"
@@ -42,7 +42,8 @@ private:
   DataFile &file;
 };
 
-/// Out of the file. What is missing or does not fit is set to zero, and `complaint` names it on the first process.
+/// Out of the file. What is missing or does not fit is set to zero, and `complaint` names it on the first
+/// process.
 class Loader
 {
 public:

@@ -17,13 +17,14 @@ namespace tribogel
 namespace
 {
 
-/// Over the run's edges. With these the errors of N and T of the paper scene are within those that are estimated on
-/// each mesh from 6 to 32 elements (tests/README.md, Errors estimated and true); with 2 and 4 alone and
-/// the rules of tools/extrapolate.py, a third of the cost, on all but five of order 2, whose values scatter.
+/// Over the run's edges. With these the errors of N and T of the paper scene are within those that are
+/// estimated on each mesh from 6 to 32 elements (tests/README.md, Errors estimated and true); with 2 and 4
+/// alone and the rules of tools/extrapolate.py, a third of the cost, on all but five of order 2, whose values
+/// scatter.
 constexpr double coarsenings[] = {4.0 / 3, 2, 8.0 / 3, 4};
 
-/// Over the run's tolerance. Shorter steps: at the end of a phase errors of longer ones may cancel (0.4 % and 1.6 %
-/// gave the same N by chance), and then the run would seem exact.
+/// Over the run's tolerance. Shorter steps: at the end of a phase errors of longer ones may cancel (0.4 %
+/// and 1.6 % gave the same N by chance), and then the run would seem exact.
 constexpr double tightened = 0.25;
 
 /// Edges `factor` times as long: fewer halvings where that is what it takes, else fewer elements.
@@ -32,13 +33,15 @@ MeshParameters coarser(MeshParameters mesh, double factor)
   for (; mesh.refinements > 0 && factor >= 2; factor /= 2) --mesh.refinements;
   mesh.elements_radial = static_cast<int>(std::lround(mesh.elements_radial / factor));
   if (mesh.bottom_elements_radial > 0)
-    mesh.bottom_elements_radial = std::max(1, static_cast<int>(std::lround(mesh.bottom_elements_radial / factor)));
+    mesh.bottom_elements_radial =
+        std::max(1, static_cast<int>(std::lround(mesh.bottom_elements_radial / factor)));
   return mesh;
 }
 
 int fewest_elements(const Scene &scene)
 {
-  return scene.model == Model::solid ? 2 : 3; // coarser ones say nothing, and cost nothing only in the half plane
+  return scene.model == Model::solid ? 2
+                                     : 3; // coarser ones say nothing, and cost nothing only in the half plane
 }
 
 /// Keeps N and T at the phases' ends and asks for a stop.
@@ -77,8 +80,8 @@ PetscErrorCode ScaleTolerance(Problem &problem, double factor)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Solve(MPI_Comm comm, const Scene &scene, SerialMesh mesh, const WishToStop &wish, Companion &companion,
-                     bool &stopped)
+PetscErrorCode Solve(MPI_Comm comm, const Scene &scene, SerialMesh mesh, const WishToStop &wish,
+                     Companion &companion, bool &stopped)
 {
   Problem problem;
   PhaseEnds observer(wish, companion.ends);
@@ -145,8 +148,8 @@ WishToStop wish_to_stop(double wall_start, double wall_time)
   };
 }
 
-PetscErrorCode RunCompanion(MPI_Comm comm, const Scene &scene, const SerialMesh *serial, const WishToStop &wish,
-                            Companion &companion, bool &stopped)
+PetscErrorCode RunCompanion(MPI_Comm comm, const Scene &scene, const SerialMesh *serial,
+                            const WishToStop &wish, Companion &companion, bool &stopped)
 {
   RunCost before, after;
   Scene own = scene;
@@ -157,7 +160,9 @@ PetscErrorCode RunCompanion(MPI_Comm comm, const Scene &scene, const SerialMesh 
   {
     const KeptErrors kept; // the run itself is well
     const auto blocks = serial ? std::vector<MeridianBlock>{} : meridian_blocks(own);
-    SerialMesh mesh = serial ? *serial : own.model == Model::solid ? revolved_mesh(blocks) : serial_mesh(blocks);
+    SerialMesh mesh = serial                      ? *serial
+                      : own.model == Model::solid ? revolved_mesh(blocks)
+                                                  : serial_mesh(blocks);
     if (Solve(comm, own, std::move(mesh), wish, companion, stopped) != 0)
       companion.failure = kept.text().empty() ? "PETSc failed" : kept.text();
   }

@@ -1,5 +1,5 @@
-/// Companions of a run: the same scene on coarser meshes or with shorter steps, for -error_estimate. They live in the
-/// program of the run, after it, and write nothing.
+/// Companions of a run: the same scene on coarser meshes or with shorter steps, for -error_estimate. They
+/// live in the program of the run, after it, and write nothing.
 #pragma once
 
 #include "observe/measure.hpp"
@@ -25,8 +25,8 @@ struct Companion {
   double cpu_seconds = 0;      ///< of all ranks
 };
 
-/// Those of the scene that differ in the mesh, coarse to fine; none for a mesh from a file, or where no coarser one
-/// exists.
+/// Those of the scene that differ in the mesh, coarse to fine; none for a mesh from a file, or where no
+/// coarser one exists.
 std::vector<Companion> mesh_companions(const Scene &scene);
 
 /// The one that differs in the steps; only where something is integrated.
@@ -38,9 +38,9 @@ using WishToStop = std::function<PetscErrorCode(MPI_Comm comm, std::string &why)
 /// Of signals and of a wall time that would be over before it is asked again; `wall_start` as MPI_Wtime [s].
 WishToStop wish_to_stop(double wall_start, double wall_time);
 
-/// Runs it. `serial` is the mesh, on the first rank, where the scene's cylinders are none. What goes wrong is said in
-/// `failure`, and `stopped` if the wish was granted. Collective.
-PetscErrorCode RunCompanion(MPI_Comm comm, const Scene &scene, const SerialMesh *serial, const WishToStop &wish,
-                            Companion &companion, bool &stopped);
+/// Runs it. `serial` is the mesh, on the first rank, where the scene's cylinders are none. What goes wrong is
+/// said in `failure`, and `stopped` if the wish was granted. Collective.
+PetscErrorCode RunCompanion(MPI_Comm comm, const Scene &scene, const SerialMesh *serial,
+                            const WishToStop &wish, Companion &companion, bool &stopped);
 
 } // namespace tribogel

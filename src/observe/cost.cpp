@@ -13,7 +13,8 @@ PetscErrorCode MeasureCost(MPI_Comm comm, double wall_start, RunCost &cost)
   const auto seconds = [](const timeval &t) {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
   };
-  double sums[2] = {seconds(usage.ru_utime) + seconds(usage.ru_stime), static_cast<double>(usage.ru_maxrss) / 1024};
+  double sums[2] = {seconds(usage.ru_utime) + seconds(usage.ru_stime),
+                    static_cast<double>(usage.ru_maxrss) / 1024};
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm));
   cost.cpu_seconds = sums[0];
   cost.peak_memory_MB = sums[1];

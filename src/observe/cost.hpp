@@ -10,7 +10,8 @@ namespace tribogel
 struct RunCost {
   double cpu_seconds = 0, wall_seconds = 0, peak_memory_MB = 0;
   int ranks = 1;
-  int restarts = 0; ///< costs of the programs that this one continues are included, up to their last checkpoints
+  int restarts =
+      0; ///< costs of the programs that this one continues are included, up to their last checkpoints
 };
 PetscErrorCode MeasureCost(MPI_Comm comm, double wall_start, RunCost &cost);
 

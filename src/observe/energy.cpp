@@ -16,9 +16,11 @@ PetscErrorCode AddEnergies(const Problem &problem, const Measurement *last, cons
   after.stored = sums[0];
   after.viscous = sums[1];
   if (!last) PetscFunctionReturn(0);
-  const double force = 0.5 * (last->normal_force + now.normal_force), torque = 0.5 * (last->torque + now.torque);
+  const double force = 0.5 * (last->normal_force + now.normal_force),
+               torque = 0.5 * (last->torque + now.torque);
   const double power = 0.5 * (last->friction_power + now.friction_power);
-  after.work += state.step * (force * phase.approach_rate() + torque * (phase.rate - problem.scene.bottom_plate_rate));
+  after.work +=
+      state.step * (force * phase.approach_rate() + torque * (phase.rate - problem.scene.bottom_plate_rate));
   after.friction += state.step * power;
   PetscFunctionReturn(0);
 }

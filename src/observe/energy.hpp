@@ -1,11 +1,11 @@
 /// Energy balance of a run: work of the plates = stored + viscous dissipation + frictional dissipation.
 ///
-/// Work and frictional heat are trapezoidal sums of the plates' and the sliding nodes' power over the accepted steps,
-/// the viscous heat is the time rule's own (THEORY 1.5, 1.7). What is left is of the rule's order in the step, and does
-/// not vanish with it: the contact holds a weighted gap, so sliding along curved surfaces leaves the normal tractions a
-/// little work, which falls with the mesh (tests/verify/test_energy.cpp). With force and power at the step's end
-/// instead the springs alone would leave half a step times the growth of the power, fifteen times as much while the
-/// gels are pressed.
+/// Work and frictional heat are trapezoidal sums of the plates' and the sliding nodes' power over the
+/// accepted steps, the viscous heat is the time rule's own (THEORY 1.5, 1.7). What is left is of the rule's
+/// order in the step, and does not vanish with it: the contact holds a weighted gap, so sliding along curved
+/// surfaces leaves the normal tractions a little work, which falls with the mesh
+/// (tests/verify/test_energy.cpp). With force and power at the step's end instead the springs alone would
+/// leave half a step times the growth of the power, fifteen times as much while the gels are pressed.
 #pragma once
 
 #include "observe/measure.hpp"

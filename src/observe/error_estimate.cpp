@@ -33,8 +33,8 @@ void plan(const Scene &scene, ErrorEstimate &estimate)
   for (Companion &companion : time_companions(scene)) estimate.companions.push_back(companion);
 }
 
-std::vector<Level> series(const std::vector<Companion> &companions, bool in_time, std::size_t phase, std::size_t load,
-                          double value)
+std::vector<Level> series(const std::vector<Companion> &companions, bool in_time, std::size_t phase,
+                          std::size_t load, double value)
 {
   std::vector<Level> levels;
   for (const Companion &companion : companions) {
@@ -53,18 +53,21 @@ void judge(const Scene &scene, const std::vector<PlateLoads> &ends, ErrorEstimat
   for (const PlateLoads &end : ends)
     for (std::size_t load = 0; load < 2; ++load) largest[load] = std::max(largest[load], std::abs(end[load]));
   const double length = scene.twist_length();
-  const PlateLoads scale{std::max(largest[0], largest[1] / length), std::max(largest[1], largest[0] * length)};
+  const PlateLoads scale{std::max(largest[0], largest[1] / length),
+                         std::max(largest[1], largest[0] * length)};
   // Of the tolerance's power that the error goes with: THEORY 4.2, 4.4.
   const double time_order = scene.time.rule == TimeRule::sdirk2 ? 1 : 0.5;
   double newton = 0; // what is solved no better than that has no smaller error
-  for (const Companion &companion : estimate.companions) newton = std::max(newton, companion.newton_tolerance);
+  for (const Companion &companion : estimate.companions)
+    newton = std::max(newton, companion.newton_tolerance);
   for (std::size_t phase = 0; phase < ends.size(); ++phase) {
     std::array<LoadErrors, 2> errors;
     for (std::size_t load = 0; load < 2; ++load) {
       const double value = ends[phase][load];
       errors[load].mesh = extrapolate(series(estimate.companions, false, phase, load, value), scale[load]);
       const std::vector<Level> steps = series(estimate.companions, true, phase, load, value);
-      if (steps.size() == 2) errors[load].time = extrapolate_with(time_order, steps[1], steps[0], scale[load]);
+      if (steps.size() == 2)
+        errors[load].time = extrapolate_with(time_order, steps[1], steps[0], scale[load]);
       if (scene.schedule_kind == ScheduleKind::steady) errors[load].time = {Convergence::settled, value, 0};
       errors[load].time.error += newton * std::abs(value);
     }
@@ -72,9 +75,9 @@ void judge(const Scene &scene, const std::vector<PlateLoads> &ends, ErrorEstimat
   }
 }
 
-PetscErrorCode EstimateErrors(MPI_Comm comm, const Scene &scene, const SerialMesh *serial, const Recorder &run,
-                              const WishToStop &wish, const std::function<void(const Companion &)> &told,
-                              ErrorEstimate &estimate)
+PetscErrorCode EstimateErrors(MPI_Comm comm, const Scene &scene, const SerialMesh *serial,
+                              const Recorder &run, const WishToStop &wish,
+                              const std::function<void(const Companion &)> &told, ErrorEstimate &estimate)
 {
   std::string why;
   bool stopped = false;
@@ -89,12 +92,14 @@ PetscErrorCode EstimateErrors(MPI_Comm comm, const Scene &scene, const SerialMes
       break;
     }
     estimate.cpu_seconds += companion.cpu_seconds;
-    if (!companion.failure.empty()) estimate.notes.push_back(companion.name + ": failed: " + companion.failure);
+    if (!companion.failure.empty())
+      estimate.notes.push_back(companion.name + ": failed: " + companion.failure);
     told(companion);
   }
   if (!why.empty()) PetscFunctionReturn(0); // half an estimate would be taken for a whole one
   std::vector<PlateLoads> ends;
-  for (const PhaseEnd &end : run.phases) ends.push_back({end.measurement.normal_force, end.measurement.torque});
+  for (const PhaseEnd &end : run.phases)
+    ends.push_back({end.measurement.normal_force, end.measurement.torque});
   judge(scene, ends, estimate);
   PetscFunctionReturn(0);
 }

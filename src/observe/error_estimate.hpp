@@ -20,11 +20,11 @@ struct ErrorEstimate {
   double cpu_seconds = 0;                        ///< of the companions, all ranks
 };
 
-/// Runs the companions of a run that is complete; `serial` as in RunCompanion, null for the scene's cylinders. `told`
-/// hears of each companion that has ended. Collective.
-PetscErrorCode EstimateErrors(MPI_Comm comm, const Scene &scene, const SerialMesh *serial, const Recorder &run,
-                              const WishToStop &wish, const std::function<void(const Companion &)> &told,
-                              ErrorEstimate &estimate);
+/// Runs the companions of a run that is complete; `serial` as in RunCompanion, null for the scene's
+/// cylinders. `told` hears of each companion that has ended. Collective.
+PetscErrorCode EstimateErrors(MPI_Comm comm, const Scene &scene, const SerialMesh *serial,
+                              const Recorder &run, const WishToStop &wish,
+                              const std::function<void(const Companion &)> &told, ErrorEstimate &estimate);
 
 /// From what the companions left. `ends`: N and T of the run.
 void judge(const Scene &scene, const std::vector<PlateLoads> &ends, ErrorEstimate &estimate);

@@ -81,14 +81,15 @@ void average(const Problem &problem, const std::vector<SurfaceResults> &surfaces
   m.mu_pressure_weighted = friction / force;
 }
 
-/// Nodal force times sliding velocity. A sticking node's velocity is what Newton's method left of zero: it counts as
-/// zero.
+/// Nodal force times sliding velocity. A sticking node's velocity is what Newton's method left of zero: it
+/// counts as zero.
 double friction_power(const std::vector<SurfaceResults> &surfaces)
 {
   double power = 0;
   for (const SurfaceResults &surface : surfaces)
     for (const NodeResult &node : surface.nodes)
-      if (node.carries && node.status == ContactStatus::slip) power -= node.weight * node.nominal.dot(node.velocity);
+      if (node.carries && node.status == ContactStatus::slip)
+        power -= node.weight * node.nominal.dot(node.velocity);
   return power;
 }
 
@@ -108,21 +109,25 @@ ProfileRow row_at(const char *surface, const char *part, const SurfacePlace &pla
   row.r = place.current[0];
   row.theta = place.current[1] + rotation;
   row.z = place.current[2];
-  row.pressure = row.traction_radial = row.traction_circumferential = row.sliding_velocity = row.mu = undefined;
+  row.pressure = row.traction_radial = row.traction_circumferential = row.sliding_velocity = row.mu =
+      undefined;
   row.status = "nan";
   return row;
 }
 
 /// Where the nodes of a curve of order 2 that begins on the axis are; empty: it is none.
-std::vector<PlanePoint<double>> curve_from_axis(const Problem &problem, const std::vector<SurfacePlace> &places)
+std::vector<PlanePoint<double>> curve_from_axis(const Problem &problem,
+                                                const std::vector<SurfacePlace> &places)
 {
   std::vector<PlanePoint<double>> x;
-  if (problem.mesh.dim != 2 || problem.scene.mesh.element_order != 2 || places.front().reference[0] != 0) return x;
+  if (problem.mesh.dim != 2 || problem.scene.mesh.element_order != 2 || places.front().reference[0] != 0)
+    return x;
   for (const SurfacePlace &place : places) x.push_back({place.current[0], place.current[2]});
   return x;
 }
 
-/// On the axis nothing is tangential or slides; `next` to it are the two nodes that say what the pressure is there.
+/// On the axis nothing is tangential or slides; `next` to it are the two nodes that say what the pressure is
+/// there.
 void settle_on_axis(const std::vector<PlanePoint<double>> &x, const ProfileRow *next, ProfileRow &row)
 {
   row.pressure = pressure_on_axis(x, {next[0].pressure, next[1].pressure});
@@ -131,7 +136,8 @@ void settle_on_axis(const std::vector<PlanePoint<double>> &x, const ProfileRow *
   if (row.pressure > 0) row.mu = 0;
 }
 
-void tabulate(const Problem &problem, const SurfaceResults &surface, const char *part, std::vector<ProfileRow> &profile)
+void tabulate(const Problem &problem, const SurfaceResults &surface, const char *part,
+              std::vector<ProfileRow> &profile)
 {
   const double rotation = problem.phase().rotation(problem.state.time);
   const std::size_t first = profile.size();
@@ -155,9 +161,10 @@ void tabulate(const Problem &problem, const SurfaceResults &surface, const char 
   if (!surface.nodes.front().carries) settle_on_axis(curve, &profile[first + 1], profile[first]);
 }
 
-/// The top gel's lower face and the part of its wall that may roll, then the bottom gel's face; curves from the axis
-/// outwards and upwards.
-void tabulate(const Problem &problem, const std::vector<SurfaceResults> &surfaces, std::vector<ProfileRow> &profile)
+/// The top gel's lower face and the part of its wall that may roll, then the bottom gel's face; curves from
+/// the axis outwards and upwards.
+void tabulate(const Problem &problem, const std::vector<SurfaceResults> &surfaces,
+              std::vector<ProfileRow> &profile)
 {
   for (const SurfaceResults &surface : surfaces)
     tabulate(problem, surface, &surface == &surfaces.front() ? "face" : "wall", profile);
@@ -165,7 +172,8 @@ void tabulate(const Problem &problem, const std::vector<SurfaceResults> &surface
   const std::vector<SurfacePlace> &master = surfaces.front().master;
   const std::size_t first = profile.size();
   for (const SurfacePlace &place : master) profile.push_back(row_at("bottom", "face", place, rotation));
-  if (const auto curve = curve_from_axis(problem, master); !curve.empty()) profile[first].z = height_on_axis(curve);
+  if (const auto curve = curve_from_axis(problem, master); !curve.empty())
+    profile[first].z = height_on_axis(curve);
 }
 
 } // namespace
@@ -186,7 +194,8 @@ PetscErrorCode Measure(Problem &problem, Measurement &measurement, std::vector<P
   read_off(problem, reaction, measurement);
   if (problem.contact) {
     ContactResults results;
-    PetscCall(problem.contact->Results(problem.frames(problem.state.time, problem.state.step), u, rate, results));
+    PetscCall(
+        problem.contact->Results(problem.frames(problem.state.time, problem.state.step), u, rate, results));
     reaction += results.wall;
     read_off(problem, reaction, measurement);
     if (problem.contact->between_gels()) {

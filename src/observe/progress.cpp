@@ -39,19 +39,21 @@ void Progress::show(const HistoryRow &row)
   if (!speaks || !(ends || (terminal && MPI_Wtime() - drawn > redraw))) return;
   drawn = MPI_Wtime();
   const Measurement &m = row.measurement;
-  std::printf("%sphase %d/%zu  t = %-10.6g s  step %-9.3g s  %2d Newton  N = %-10.6g N  T = %-11.6g N mm  mu weighted "
+  std::printf("%sphase %d/%zu  t = %-10.6g s  step %-9.3g s  %2d Newton  N = %-10.6g N  T = %-11.6g N mm  mu "
+              "weighted "
               "= %-10.4g%s%s",
               terminal ? "\r" : "", row.phase, schedule.size(), row.time, row.step,
-              static_cast<int>(row.report.newton_iterations), m.normal_force, m.torque, m.mu_pressure_weighted,
-              ends ? "                     " : estimate_left(row.time).c_str(), ends ? "\n" : "  ");
+              static_cast<int>(row.report.newton_iterations), m.normal_force, m.torque,
+              m.mu_pressure_weighted, ends ? "                     " : estimate_left(row.time).c_str(),
+              ends ? "\n" : "  ");
   std::fflush(stdout);
 }
 
 void Progress::show(const StepFailure &failure) const
 {
   std::ostringstream text;
-  text << std::setprecision(9) << "t = " << failure.time << std::setprecision(3) << " s: a step of " << failure.step
-       << " s is cut: " << failure.words;
+  text << std::setprecision(9) << "t = " << failure.time << std::setprecision(3) << " s: a step of "
+       << failure.step << " s is cut: " << failure.words;
   show(text.str());
 }
 
@@ -66,20 +68,21 @@ void Progress::finish(const Recorder &recorder, const SolveCounts &counts, const
                       const RunCost &cost, const std::string &directory) const
 {
   if (!speaks) return;
-  std::printf("\n%5s %10s %12s %12s %14s %12s %13s %13s\n", "phase", "time s", "rate rad/s", "N  N", "T  N mm",
-              "radius mm", "mu apparent", "mu weighted");
+  std::printf("\n%5s %10s %12s %12s %14s %12s %13s %13s\n", "phase", "time s", "rate rad/s", "N  N",
+              "T  N mm", "radius mm", "mu apparent", "mu weighted");
   for (const PhaseEnd &end : recorder.phases) {
     const Measurement &m = end.measurement;
-    std::printf("%5d %10.6g %12.6g %12.7g %14.7g %12.6g %13.6g %13.6g\n", end.phase, end.time, end.rate, m.normal_force,
-                m.torque, m.contact_radius, m.mu_apparent, m.mu_pressure_weighted);
+    std::printf("%5d %10.6g %12.6g %12.7g %14.7g %12.6g %13.6g %13.6g\n", end.phase, end.time, end.rate,
+                m.normal_force, m.torque, m.contact_radius, m.mu_apparent, m.mu_pressure_weighted);
   }
-  std::printf(
-      "mu apparent: from T by eq. (3.13) of the paper; mu weighted: of the law, over the contact, by pressure\n");
-  std::printf(
-      "\n%d steps (%d rejected, %d failed solves), %d Newton iterations, %.1f CPU s, %.1f s, %.0f MB on %d rank%s\n",
-      static_cast<int>(counts.accepted_steps), static_cast<int>(counts.rejected_steps),
-      static_cast<int>(counts.failed_solves), static_cast<int>(counts.newton_iterations), cost.cpu_seconds,
-      cost.wall_seconds, cost.peak_memory_MB, cost.ranks, cost.ranks == 1 ? "" : "s");
+  std::printf("mu apparent: from T by eq. (3.13) of the paper; mu weighted: of the law, over the contact, by "
+              "pressure\n");
+  std::printf("\n%d steps (%d rejected, %d failed solves), %d Newton iterations, %.1f CPU s, %.1f s, %.0f MB "
+              "on %d rank%s\n",
+              static_cast<int>(counts.accepted_steps), static_cast<int>(counts.rejected_steps),
+              static_cast<int>(counts.failed_solves), static_cast<int>(counts.newton_iterations),
+              cost.cpu_seconds, cost.wall_seconds, cost.peak_memory_MB, cost.ranks,
+              cost.ranks == 1 ? "" : "s");
   for (int k = 0; k < failure_kinds; ++k)
     if (const int count = counts.failures[static_cast<std::size_t>(k)])
       std::printf("  failed, step cut: %d x %s\n", count, failure_names[k]);
@@ -93,8 +96,9 @@ void Progress::finish(const Recorder &recorder, const SolveCounts &counts, const
 void Progress::show(const Companion &companion) const
 {
   char cost[64];
-  std::snprintf(cost, sizeof cost, ": %d unknowns, %d steps, %.1f CPU s", static_cast<int>(companion.unknowns),
-                static_cast<int>(companion.steps), companion.cpu_seconds);
+  std::snprintf(cost, sizeof cost, ": %d unknowns, %d steps, %.1f CPU s",
+                static_cast<int>(companion.unknowns), static_cast<int>(companion.steps),
+                companion.cpu_seconds);
   show("error estimate: " + companion.name + cost + (companion.failure.empty() ? "" : ", failed"));
 }
 
@@ -119,17 +123,18 @@ void Progress::show(const ErrorEstimate &estimate, const Recorder &recorder) con
 {
   if (!speaks) return;
   if (!estimate.phases.empty())
-    std::printf("\n%5s %12s %16s %9s %14s %16s %9s\n", "phase", "N  N", "+- mesh (order)", "+- time", "T  N mm",
-                "+- mesh (order)", "+- time");
+    std::printf("\n%5s %12s %16s %9s %14s %16s %9s\n", "phase", "N  N", "+- mesh (order)", "+- time",
+                "T  N mm", "+- mesh (order)", "+- time");
   for (std::size_t k = 0; k < estimate.phases.size(); ++k) {
     const auto &[force, torque] = estimate.phases[k];
     const Measurement &m = recorder.phases[k].measurement;
     std::printf("%5d %12.7g %16s %9s %14.7g %16s %9s\n", recorder.phases[k].phase, m.normal_force,
-                text_of(force.mesh).c_str(), text_of(force.time).c_str(), m.torque, text_of(torque.mesh).c_str(),
-                text_of(torque.time).c_str());
+                text_of(force.mesh).c_str(), text_of(force.time).c_str(), m.torque,
+                text_of(torque.mesh).c_str(), text_of(torque.time).c_str());
   }
   for (const std::string &note : estimate.notes) std::printf("note: error estimate: %s\n", note.c_str());
-  std::printf("error estimate: %zu companions, %.1f CPU s\n", estimate.companions.size(), estimate.cpu_seconds);
+  std::printf("error estimate: %zu companions, %.1f CPU s\n", estimate.companions.size(),
+              estimate.cpu_seconds);
 }
 
 } // namespace tribogel

@@ -13,8 +13,8 @@ public:
   void show(const HistoryRow &row);
   void show(const StepFailure &failure) const;
   void show(const std::string &notice) const;
-  void finish(const Recorder &recorder, const SolveCounts &counts, const RunOutcome &outcome, const RunCost &cost,
-              const std::string &directory) const;
+  void finish(const Recorder &recorder, const SolveCounts &counts, const RunOutcome &outcome,
+              const RunCost &cost, const std::string &directory) const;
   void show(const Companion &companion) const;
   void show(const ErrorEstimate &estimate, const Recorder &recorder) const;
 

@@ -20,10 +20,13 @@ namespace
 enum : std::size_t { history_file, profile_file };
 constexpr std::array files = {history_file, profile_file};
 constexpr std::array headers = {
-    "time_s,phase,approach_mm,rotation_rad,rate_rad_per_s,normal_force_N,torque_Nmm,contact_radius_mm,mu_apparent,"
-    "mu_gong,mu_mean,mu_area_weighted,mu_pressure_weighted,newton_iterations,linear_iterations,step_s,contact_force_N,"
+    "time_s,phase,approach_mm,rotation_rad,rate_rad_per_s,normal_force_N,torque_Nmm,contact_radius_mm,mu_"
+    "apparent,"
+    "mu_gong,mu_mean,mu_area_weighted,mu_pressure_weighted,newton_iterations,linear_iterations,step_s,"
+    "contact_force_N,"
     "contact_torque_Nmm,force_mismatch_N,torque_mismatch_Nmm,work_of_plates_Nmm,stored_energy_Nmm,"
-    "viscous_dissipation_Nmm,frictional_dissipation_Nmm,transverse_force_x_N,transverse_force_y_N,bending_moment_x_Nmm,"
+    "viscous_dissipation_Nmm,frictional_dissipation_Nmm,transverse_force_x_N,transverse_force_y_N,bending_"
+    "moment_x_Nmm,"
     "bending_moment_y_Nmm",
     "time_s,phase,surface,reference_r_mm,reference_theta_rad,reference_z_mm,r_mm,theta_rad,z_mm,pressure_MPa,"
     "traction_radial_MPa,traction_circumferential_MPa,sliding_velocity_mm_per_s,mu,status,part"};
@@ -59,19 +62,20 @@ std::string text_of(const HistoryRow &row)
   const EnergyBalance &e = row.energy;
   return comma_separated(row.time, row.phase, row.approach, row.rotation, row.rate, m.normal_force, m.torque,
                          m.contact_radius, m.mu_apparent, m.mu_gong, m.mu_mean, m.mu_area_weighted,
-                         m.mu_pressure_weighted, row.report.newton_iterations, row.report.linear_iterations, row.step,
-                         m.contact_force, m.contact_torque, m.force_mismatch(), m.torque_mismatch(), e.work, e.stored,
-                         e.viscous, e.friction, m.transverse_force[0], m.transverse_force[1], m.bending_moment[0],
-                         m.bending_moment[1]) +
+                         m.mu_pressure_weighted, row.report.newton_iterations, row.report.linear_iterations,
+                         row.step, m.contact_force, m.contact_torque, m.force_mismatch(), m.torque_mismatch(),
+                         e.work, e.stored, e.viscous, e.friction, m.transverse_force[0],
+                         m.transverse_force[1], m.bending_moment[0], m.bending_moment[1]) +
          '\n';
 }
 
-/// How far the bottom surface has gone down at the current radius r, between its nodes; a surface in space has them in
-/// any order and more than one at a radius.
+/// How far the bottom surface has gone down at the current radius r, between its nodes; a surface in space
+/// has them in any order and more than one at a radius.
 double displacement_at(const std::vector<ProfileRow> &profile, double r)
 {
   const auto down = [](const ProfileRow *row) { return row->reference_z - row->z; };
-  const ProfileRow *inner = nullptr, *outer = nullptr; // the nearest with a smaller radius, and with r or a larger one
+  const ProfileRow *inner = nullptr,
+                   *outer = nullptr; // the nearest with a smaller radius, and with r or a larger one
   for (const ProfileRow &row : profile) {
     if (row.surface != std::string("bottom")) continue;
     if (row.r >= r) {
@@ -117,9 +121,9 @@ std::string Recorder::way_out(const Problem &problem) const
   std::snprintf(when, sizeof when, " (at t = %.10g s); ", problem.state.time);
   std::error_code ignored;
   const bool resumable = std::filesystem::exists(checkpoint_in(directory), ignored);
-  return when + (resumable
-                     ? "what was written before is kept, and -restart " + directory + " goes on from its checkpoint"
-                     : "there is no checkpoint to go on from");
+  return when + (resumable ? "what was written before is kept, and -restart " + directory +
+                                 " goes on from its checkpoint"
+                           : "there is no checkpoint to go on from");
 }
 
 std::string checkpoint_in(const std::string &directory)
@@ -132,7 +136,8 @@ std::array<std::string, 2> Recorder::paths() const
   return {directory + "/history.csv", directory + "/profile.csv"};
 }
 
-/// New files, or those that are there without what was written after the last checkpoint. Returns what went wrong.
+/// New files, or those that are there without what was written after the last checkpoint. Returns what went
+/// wrong.
 std::string Recorder::open(bool goes_on)
 {
   for (const std::size_t k : files) {
@@ -199,7 +204,8 @@ PetscErrorCode Recorder::Conclude(Problem &problem)
   double approach = 0;
   for (const Phase &phase : problem.scene.schedule) approach = std::max(approach, phase.end_approach);
   std::ostringstream text;
-  text << "the gels have never been pressed together: N and T are zero throughout. The top plate comes down by "
+  text << "the gels have never been pressed together: N and T are zero throughout. The top plate comes down "
+          "by "
        << approach << " mm at most, and the gels are " << problem.scene.initial_gap
        << " mm apart at the start: -schedule_approach has to be larger than -initial_gap";
   PetscCall(Notice(problem, text.str()));
@@ -228,7 +234,8 @@ PetscErrorCode Recorder::Record(Problem &problem, const StepReport &report)
   if (report.ends_phase) {
     last_profile = std::move(surfaces);
     phases.push_back({row.phase, row.time, row.approach, row.rotation, row.rate, row.measurement,
-                      displacement_at(last_profile, 0), displacement_at(last_profile, row.measurement.contact_radius)});
+                      displacement_at(last_profile, 0),
+                      displacement_at(last_profile, row.measurement.contact_radius)});
     PetscCall(Write(problem, [&] { return profile.append(profile_of(phases.back())); }));
   }
   if (on_row) on_row(row);
@@ -239,10 +246,11 @@ std::string Recorder::profile_of(const PhaseEnd &end) const
 {
   std::string text;
   for (const ProfileRow &row : last_profile)
-    text += comma_separated(end.time, end.phase, row.surface, row.reference_r, row.reference_theta, row.reference_z,
-                            row.r, row.theta, row.z, row.pressure, row.traction_radial, row.traction_circumferential,
-                            row.sliding_velocity, row.mu, row.status, row.part) +
-            '\n';
+    text +=
+        comma_separated(end.time, end.phase, row.surface, row.reference_r, row.reference_theta,
+                        row.reference_z, row.r, row.theta, row.z, row.pressure, row.traction_radial,
+                        row.traction_circumferential, row.sliding_velocity, row.mu, row.status, row.part) +
+        '\n';
   return text;
 }
 

@@ -1,6 +1,7 @@
-/// Measures each accepted step and writes history.csv (a row a step) and profile.csv (the surfaces at each phase's
-/// end). Rows are written as they come, so that nothing is lost when a run dies; the first that cannot be written ends
-/// the run. A recorder that has rows when it starts goes on with the files of the run that they are from.
+/// Measures each accepted step and writes history.csv (a row a step) and profile.csv (the surfaces at each
+/// phase's end). Rows are written as they come, so that nothing is lost when a run dies; the first that
+/// cannot be written ends the run. A recorder that has rows when it starts goes on with the files of the run
+/// that they are from.
 #pragma once
 
 #include "observe/energy.hpp"
@@ -49,22 +50,25 @@ public:
   /// What a complete run has to tell in the end.
   PetscErrorCode Conclude(Problem &problem);
 
-  /// First process: the files' rows so far survive the machine's end; `bytes` is updated. Returns what went wrong.
+  /// First process: the files' rows so far survive the machine's end; `bytes` is updated. Returns what went
+  /// wrong.
   std::string bring_to_disk();
 
-  /// First process: what speaks against going on behind the first `bytes` of the files; empty if nothing does.
+  /// First process: what speaks against going on behind the first `bytes` of the files; empty if nothing
+  /// does.
   std::string objection_to_resume() const;
 
   /// First process, behind the reason why a file cannot be written: when it was, what is left, how to go on.
   std::string way_out(const Problem &problem) const;
 
-  std::array<std::uintmax_t, 2> bytes{}; ///< of history.csv and profile.csv that belong to `rows` and `phases`
-  std::string complaint;                 ///< why rows are missing in the files, the same on all ranks; empty: none is
+  std::array<std::uintmax_t, 2>
+      bytes{};           ///< of history.csv and profile.csv that belong to `rows` and `phases`
+  std::string complaint; ///< why rows are missing in the files, the same on all ranks; empty: none is
   std::vector<HistoryRow> rows;
   std::vector<PhaseEnd> phases;
-  std::vector<std::string> notices;                    ///< what the problem had to tell
-  std::vector<ProfileRow> last_profile;                ///< at the end of the last completed phase of this program
-  std::function<void(const HistoryRow &)> on_row = {}; ///< e.g. the progress line
+  std::vector<std::string> notices;     ///< what the problem had to tell
+  std::vector<ProfileRow> last_profile; ///< at the end of the last completed phase of this program
+  std::function<void(const HistoryRow &)> on_row = {};            ///< e.g. the progress line
   std::function<void(const StepFailure &)> on_first_failure = {}; ///< of each kind
   std::function<void(const std::string &)> on_notice = {};
 

@@ -47,8 +47,8 @@ Json describe(const PhaseEnd &end)
           {"bottom_surface_rim_displacement_mm", number(end.rim_displacement)}};
 }
 
-/// Largest imbalance between plate and contact over the run beside the largest force and torque; the energies at its
-/// end.
+/// Largest imbalance between plate and contact over the run beside the largest force and torque; the energies
+/// at its end.
 Json balances(const Recorder &recorder)
 {
   double force = 0, torque = 0, most_force = 0, most_torque = 0, most_work = 0;
@@ -111,8 +111,8 @@ std::string petsc_version()
   return text;
 }
 
-Json summary_of(const Problem &problem, const Recorder &recorder, const RunOutcome &outcome, const RunCost &cost,
-                const std::vector<std::pair<std::string, std::string>> &options,
+Json summary_of(const Problem &problem, const Recorder &recorder, const RunOutcome &outcome,
+                const RunCost &cost, const std::vector<std::pair<std::string, std::string>> &options,
                 const std::vector<std::string> &warnings, const ErrorEstimate *estimate)
 {
   Json json;

@@ -1,4 +1,5 @@
-/// summary.json: the scene as run, the phases' ends, balances, counts, cost and versions of a run, for scripts.
+/// summary.json: the scene as run, the phases' ends, balances, counts, cost and versions of a run, for
+/// scripts.
 #pragma once
 
 #include "observe/cost.hpp"
@@ -24,8 +25,8 @@ struct RunOutcome {
   }
 };
 
-/// By the first rank. `estimate` is null where none was asked for or made. `complaint` says on all ranks why the file
-/// could not be written, empty if it could. Collective.
+/// By the first rank. `estimate` is null where none was asked for or made. `complaint` says on all ranks why
+/// the file could not be written, empty if it could. Collective.
 PetscErrorCode WriteSummary(MPI_Comm comm, const std::string &directory, const Problem &problem,
                             const Recorder &recorder, const RunOutcome &outcome, const RunCost &cost,
                             const std::vector<std::pair<std::string, std::string>> &options,

@@ -59,7 +59,10 @@ Character first_of(std::string_view text)
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char head = byte(0);
   if (head < 0x80) return {head};
-  const std::size_t length = head >= 0xF0 && head < 0xF8 ? 4 : head >= 0xE0 && head < 0xF0 ? 3 : head >= 0xC2 ? 2 : 1;
+  const std::size_t length = head >= 0xF0 && head < 0xF8   ? 4
+                             : head >= 0xE0 && head < 0xF0 ? 3
+                             : head >= 0xC2                ? 2
+                                                           : 1;
   if (length == 1 || head >= 0xF8 || text.size() < length) return {head, false};
   char32_t code = head & (0x7Fu >> length);
   for (std::size_t i = 1; i < length; ++i) {

@@ -38,7 +38,8 @@ std::string way_out(const std::string &word)
 {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(word, ignored))
-    return "it is a file; allowed: " + std::string(word.ends_with(".msh") ? "-mesh_file " : "-options_file ") + word;
+    return "it is a file; allowed: " +
+           std::string(word.ends_with(".msh") ? "-mesh_file " : "-options_file ") + word;
   if (std::filesystem::exists(word + "/checkpoint.h5", ignored))
     return "it is the directory of a run; allowed: -restart " + word + " to continue it";
   const std::string odd = word.empty() ? "" : foreign_character(word.substr(0, 4));
@@ -61,13 +62,15 @@ bool is_yaml(const std::string &path)
 
 void check_characters(const GivenOption &option)
 {
-  const std::string head = shown(option.name) + (option.value.empty() ? "" : " = " + shown(option.value)) + ": ";
+  const std::string head =
+      shown(option.name) + (option.value.empty() ? "" : " = " + shown(option.value)) + ": ";
   if (const std::string odd = foreign_character(option.name); !odd.empty())
     throw UserError{head + "the option's name holds " + odd + ", " + option.place() +
                     "; allowed: letters, digits, _ and - in names, a blank or a tab after them"};
   if (const std::size_t sign = option.name.find('='); sign != std::string::npos)
-    throw UserError{option.name + ": unknown option " + option.place() + "; allowed: " + option.name.substr(0, sign) +
-                    " " + option.name.substr(sign + 1) + ", with a blank in place of the equals sign"};
+    throw UserError{option.name + ": unknown option " + option.place() +
+                    "; allowed: " + option.name.substr(0, sign) + " " + option.name.substr(sign + 1) +
+                    ", with a blank in place of the equals sign"};
   if (const std::string odd = unreadable_character(option.value); !odd.empty())
     throw UserError{head + "the value holds " + odd + ", " + option.place() +
                     "; allowed: characters that can be seen, in UTF-8"};
@@ -79,7 +82,8 @@ std::vector<GivenOption> paired(const std::vector<std::string> &words, const Giv
   std::vector<GivenOption> options;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (!is_option_name(words[i]))
-      refuse_stray(words[i], from.place(), options.empty() ? "" : options.back().name + " = " + options.back().value);
+      refuse_stray(words[i], from.place(),
+                   options.empty() ? "" : options.back().name + " = " + options.back().value);
     options.push_back(from);
     options.back().name = words[i];
     if (i + 1 == words.size() || is_option_name(words[i + 1])) continue;
@@ -106,7 +110,8 @@ public:
       take_file(option);
     } else if (same_name(option.name, "-prefix_push")) {
       if (option.value.empty())
-        throw UserError{"-prefix_push: value missing " + option.place() + "; allowed: how the names that follow begin"};
+        throw UserError{"-prefix_push: value missing " + option.place() +
+                        "; allowed: how the names that follow begin"};
       prefixes.push_back(option.value);
     } else if (same_name(option.name, "-prefix_pop")) {
       if (prefixes.empty())
@@ -142,19 +147,21 @@ public:
       if (!found.empty()) take(found[0]);
     }
     if (prefixes.size() != before)
-      throw UserError{named +
-                      ": -prefix_push and -prefix_pop do not balance; allowed: as many of the one as of the other"};
+      throw UserError{
+          named +
+          ": -prefix_push and -prefix_pop do not balance; allowed: as many of the one as of the other"};
     opened.pop_back();
   }
 
 private:
   void take_file(const GivenOption &option)
   {
-    if (option.value.empty()) throw UserError{option.name + ": value missing " + option.place() + "; allowed: a path"};
+    if (option.value.empty())
+      throw UserError{option.name + ": value missing " + option.place() + "; allowed: a path"};
     const std::string named = option.name + " = " + option.value;
     if (!same_name(option.name, "-options_file") || is_yaml(option.value))
-      throw UserError{
-          named + ": YAML is not read, it keeps no order; allowed: -options_file with lines of the form -option value"};
+      throw UserError{named + ": YAML is not read, it keeps no order; allowed: -options_file with lines of "
+                              "the form -option value"};
     read_file(option.value, named, option.unasked);
   }
 
@@ -220,7 +227,8 @@ std::vector<std::string> unasked_options_files(const CommandLine &line)
   std::vector<std::string> files = {".petscrc", "petscrc"};
   if (const char *home = std::getenv("HOME")) files.insert(files.begin(), std::string(home) + "/.petscrc");
   std::error_code ignored;
-  std::erase_if(files, [&](const std::string &path) { return !std::filesystem::is_regular_file(path, ignored); });
+  std::erase_if(files,
+                [&](const std::string &path) { return !std::filesystem::is_regular_file(path, ignored); });
   return files;
 }
 

@@ -15,9 +15,11 @@ PetscErrorCode Broadcast(MPI_Comm comm, std::string &text);
 PetscErrorCode Broadcast(MPI_Comm comm, std::vector<double> &numbers);
 
 /// Runs `work` on the first process; its complaint, empty if all went well, on all. Collective.
-PetscErrorCode OnFirstProcess(MPI_Comm comm, const std::function<std::string()> &work, std::string &complaint);
+PetscErrorCode OnFirstProcess(MPI_Comm comm, const std::function<std::string()> &work,
+                              std::string &complaint);
 
-/// Runs `work` on the first process and throws its complaint, if it is not empty, as UserError on all. Collective.
+/// Runs `work` on the first process and throws its complaint, if it is not empty, as UserError on all.
+/// Collective.
 PetscErrorCode OnFirstProcess(MPI_Comm comm, const std::function<std::string()> &work);
 
 } // namespace tribogel

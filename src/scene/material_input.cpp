@@ -19,11 +19,13 @@ Ogden<double> read_ogden(const OptionReader &reader, const Option &moduli, const
   law.bulk_modulus = reader.real(bulk_modulus);
   law.volumetric_law = volumetric_law;
   for (std::size_t r = 0; r < law.moduli.size(); ++r) {
-    if (law.exponents[r] == 0) refuse(exponents.name, reader.text(exponents), "allowed: " + exponents.allowed());
+    if (law.exponents[r] == 0)
+      refuse(exponents.name, reader.text(exponents), "allowed: " + exponents.allowed());
     if (!(law.moduli[r] * law.exponents[r] > 0))
       refuse(moduli.name, reader.text(moduli),
              "with " + exponents.name + " = " + reader.text(exponents) + " term " + std::to_string(r + 1) +
-                 " has G_r alpha_r = " + to_text(law.moduli[r] * law.exponents[r]) + "; allowed: " + moduli.allowed());
+                 " has G_r alpha_r = " + to_text(law.moduli[r] * law.exponents[r]) +
+                 "; allowed: " + moduli.allowed());
   }
   return law;
 }
@@ -32,8 +34,9 @@ void warn_if_auxetic(const Ogden<double> &law, const std::string &bulk_modulus, 
 {
   const double G = law.shear_modulus();
   if (law.bulk_modulus < G)
-    input.warnings.push_back(bulk_modulus + " = " + to_text(law.bulk_modulus) + " MPa is less than the shear modulus " +
-                             to_text(G) + " MPa" + (initial_poisson_ratio(law) < 0 ? ": an auxetic material" : "") +
+    input.warnings.push_back(bulk_modulus + " = " + to_text(law.bulk_modulus) +
+                             " MPa is less than the shear modulus " + to_text(G) + " MPa" +
+                             (initial_poisson_ratio(law) < 0 ? ": an auxetic material" : "") +
                              "; are both in MPa?");
 }
 
@@ -71,8 +74,9 @@ Viscoelastic<double> read_material(const OptionReader &reader, const std::string
   const auto declared = [&](const std::string &rest) { return OptionReader::declared(stem + rest); };
   const bool viscoelastic = reader.choice(stem + "_material") == "viscoelastic";
   Viscoelastic<double> material;
-  const VolumetricLaw volumetric_law =
-      reader.choice(stem + "_volumetric_law") == "quadratic" ? VolumetricLaw::quadratic : VolumetricLaw::logarithmic;
+  const VolumetricLaw volumetric_law = reader.choice(stem + "_volumetric_law") == "quadratic"
+                                           ? VolumetricLaw::quadratic
+                                           : VolumetricLaw::logarithmic;
   material.equilibrium = read_ogden(reader, declared("_ogden_moduli"), declared("_ogden_exponents"),
                                     declared("_bulk_modulus"), volumetric_law);
   warn_if_auxetic(material.equilibrium, stem + "_bulk_modulus", input);
@@ -83,8 +87,9 @@ Viscoelastic<double> read_material(const OptionReader &reader, const std::string
     const std::vector<Option> options = further_branch_options(body, number);
     for (const Option &option : options) {
       if (!reader.is_given(option.name))
-        throw UserError{option.name +
-                        ": value missing, a branch beyond the first has no defaults; allowed: " + option.allowed()};
+        throw UserError{
+            option.name +
+            ": value missing, a branch beyond the first has no defaults; allowed: " + option.allowed()};
       branches.options.emplace_back(option.name.substr(1), reader.text(option));
     }
     material.branches.push_back(read_branch(reader, options, volumetric_law, branches));

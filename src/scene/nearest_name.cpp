@@ -21,7 +21,8 @@ int edit_distance(std::string_view a, std::string_view b)
     for (std::size_t j = 1; j < columns; ++j) {
       const int change = same(i - 1, j - 1) ? 0 : 1;
       now[j] = std::min({last[j] + 1, now[j - 1] + 1, last[j - 1] + change});
-      if (i > 1 && j > 1 && same(i - 1, j - 2) && same(i - 2, j - 1)) now[j] = std::min(now[j], before[j - 2] + 1);
+      if (i > 1 && j > 1 && same(i - 1, j - 2) && same(i - 2, j - 1))
+        now[j] = std::min(now[j], before[j - 2] + 1);
     }
   }
   return now[b.size()];

@@ -9,27 +9,27 @@ namespace
 
 OptionGroup scene_group()
 {
-  return {
-      "Scene",
-      {{.name = "-model",
-        .kind = OptionKind::choice,
-        .fallback = "axisymmetric",
-        .meaning = "axisymmetric: coaxial specimens of revolution with any rotation, in the (R, Z) half plane; solid: "
-                   "in space",
-        .source = "own",
-        .choices = {"axisymmetric", "solid"}},
-       {.name = "-task",
-        .kind = OptionKind::choice,
-        .fallback = "simulate",
-        .meaning = "simulate: from the scene to force, torque and profiles",
-        .source = "own",
-        .choices = {"simulate"}},
-       {.name = "-specimens",
-        .kind = OptionKind::choice,
-        .fallback = "both",
-        .meaning = "both: two gels in contact; bottom: one gel bonded to both plates, no contact",
-        .source = "paper",
-        .choices = {"both", "bottom"}}}};
+  return {"Scene",
+          {{.name = "-model",
+            .kind = OptionKind::choice,
+            .fallback = "axisymmetric",
+            .meaning = "axisymmetric: coaxial specimens of revolution with any rotation, in the (R, Z) half "
+                       "plane; solid: "
+                       "in space",
+            .source = "own",
+            .choices = {"axisymmetric", "solid"}},
+           {.name = "-task",
+            .kind = OptionKind::choice,
+            .fallback = "simulate",
+            .meaning = "simulate: from the scene to force, torque and profiles",
+            .source = "own",
+            .choices = {"simulate"}},
+           {.name = "-specimens",
+            .kind = OptionKind::choice,
+            .fallback = "both",
+            .meaning = "both: two gels in contact; bottom: one gel bonded to both plates, no contact",
+            .source = "paper",
+            .choices = {"both", "bottom"}}}};
 }
 
 OptionGroup geometry_group()
@@ -62,19 +62,23 @@ OptionGroup geometry_group()
         .kind = OptionKind::real,
         .fallback = "0",
         .unit = "rad",
-        .meaning = "inclination of the top plate's face, and with it of its gel, against the axis about which it turns;"
+        .meaning = "inclination of the top plate's face, and with it of its gel, against the axis about "
+                   "which it turns;"
                    " at t = 0 the gel is lowest at +x, and -initial_gap is measured there (-model solid)",
         .source = "own",
         .range = {-0.5, 0.5}},
        {.name = "-mesh_file",
         .kind = OptionKind::path,
         .fallback = "",
-        .meaning = "Gmsh file of specimens of any shape, instead of the sizes above: hexahedra in the physical volumes"
-                   " top and bottom, their faces in the physical surfaces top_plate, bottom_plate, top_contact and"
-                   " bottom_contact (with -specimens bottom: bottom, top_plate and bottom_plate); mm, z = 0 is the"
-                   " bottom specimen's contact face, x = y = 0 the axis",
+        .meaning =
+            "Gmsh file of specimens of any shape, instead of the sizes above: hexahedra in the physical "
+            "volumes"
+            " top and bottom, their faces in the physical surfaces top_plate, bottom_plate, top_contact and"
+            " bottom_contact (with -specimens bottom: bottom, top_plate and bottom_plate); mm, z = 0 is the"
+            " bottom specimen's contact face, x = y = 0 the axis",
         .source = "own",
-        .rule = "ASCII, format 2.2 or 4.1, from the working directory; -model solid, -schedule_kind transient",
+        .rule =
+            "ASCII, format 2.2 or 4.1, from the working directory; -model solid, -schedule_kind transient",
         .may_change = true}, // to another path of the same mesh
        {.name = "-plate_contact",
         .kind = OptionKind::flag,
@@ -82,13 +86,15 @@ OptionGroup geometry_group()
         .meaning = "side walls may touch, not penetrate, the plates; the top gel's may roll onto the bottom "
                    "gel",
         .source = "own"}}};
-  group.options[0].rule = "not larger than -bottom_radius: the face of the top gel lies on that of the bottom gel";
+  group.options[0].rule =
+      "not larger than -bottom_radius: the face of the top gel lies on that of the bottom gel";
   group.options[4].range = non_negative;
   return group;
 }
 
 /// Ogden moduli, exponents and bulk modulus: the same three for the equilibrium part and for each branch.
-std::vector<Option> ogden_options(const BranchNames &names, const std::string &part, const std::string &moduli)
+std::vector<Option> ogden_options(const BranchNames &names, const std::string &part,
+                                  const std::string &moduli)
 {
   return {{.name = names.moduli,
            .kind = OptionKind::reals,
@@ -141,14 +147,16 @@ OptionGroup material_group(const std::string &body)
        .source = "paper",
        .choices = {"viscoelastic", "hyperelastic"}});
   const std::string stem = "-" + body;
-  const BranchNames equilibrium{stem + "_ogden_moduli", stem + "_ogden_exponents", stem + "_bulk_modulus", ""};
+  const BranchNames equilibrium{stem + "_ogden_moduli", stem + "_ogden_exponents", stem + "_bulk_modulus",
+                                ""};
   for (const Option &option : ogden_options(equilibrium, "equilibrium", "0.75,0.45,0.18"))
     group.options.push_back(option);
   group.options.push_back({.name = stem + "_volumetric_law",
                            .kind = OptionKind::choice,
                            .fallback = "logarithmic",
-                           .meaning = "volumetric energy of all springs: logarithmic: K/4 (J^2 - 2 ln J - 1); "
-                                      "quadratic: K/2 (J - 1)^2",
+                           .meaning =
+                               "volumetric energy of all springs: logarithmic: K/4 (J^2 - 2 ln J - 1); "
+                               "quadratic: K/2 (J - 1)^2",
                            .source = "paper",
                            .choices = {"logarithmic", "quadratic"}});
   for (const Option &option : branch_options(body, 1)) group.options.push_back(option);
@@ -220,7 +228,8 @@ OptionGroup schedule_group()
         .kind = OptionKind::reals,
         .fallback = "0.79",
         .unit = "mm",
-        .meaning = "travel of the top plate since t = 0 at each phase's end, -initial_gap included; linear between",
+        .meaning =
+            "travel of the top plate since t = 0 at each phase's end, -initial_gap included; linear between",
         .source = "assumed",
         .range = any_real,
         .rule = "one for each phase or one for all, less than the height of what stands between the plates"},
@@ -243,16 +252,17 @@ OptionGroup schedule_group()
        {.name = "-schedule_kind",
         .kind = OptionKind::choice,
         .fallback = "transient",
-        .meaning = "transient: the whole history; steady: for each phase the relaxed state at its rate and approach",
+        .meaning =
+            "transient: the whole history; steady: for each phase the relaxed state at its rate and approach",
         .source = "paper",
         .choices = {"transient", "steady"}},
        {.name = "-phase_end_tolerance",
         .kind = OptionKind::real,
         .fallback = "0",
         .unit = "%",
-        .meaning =
-            "what is left of a phase is one step once N and T, going on as fast as now, would change by less than "
-            "this part of their largest values; 0: never",
+        .meaning = "what is left of a phase is one step once N and T, going on as fast as now, would change "
+                   "by less than "
+                   "this part of their largest values; 0: never",
         .source = "own",
         .range = {0, 100}}}};
 }
@@ -271,8 +281,9 @@ std::vector<Option> time_options()
            .kind = OptionKind::real,
            .fallback = "0.1",
            .unit = "%",
-           .meaning = "error in time that the steps follow, per cent of the largest N and T so far:"
-                      " exponential_euler: of a step; sdirk2: of N(t) and T(t), and of the internal variables",
+           .meaning =
+               "error in time that the steps follow, per cent of the largest N and T so far:"
+               " exponential_euler: of a step; sdirk2: of N(t) and T(t), and of the internal variables",
            .source = "own",
            .range = positive,
            .may_change = true}};
@@ -293,8 +304,9 @@ OptionGroup discretisation_group()
         .kind = OptionKind::integer,
         .fallback = "12",
         .unit = "-",
-        .meaning = "elements along the top radius (the bottom one if it is alone); the rest of the mesh follows"
-                   " (with -model solid the default is 3)",
+        .meaning =
+            "elements along the top radius (the bottom one if it is alone); the rest of the mesh follows"
+            " (with -model solid the default is 3)",
         .source = "own",
         .range = {1, 1e6}},
        {.name = "-bottom_elements_radial",
@@ -316,13 +328,15 @@ OptionGroup discretisation_group()
         .kind = OptionKind::integer,
         .fallback = "0",
         .unit = "-",
-        .meaning = "how often every edge of that mesh is halved; the nodes it had stay, for studies of convergence",
+        .meaning =
+            "how often every edge of that mesh is halved; the nodes it had stay, for studies of convergence",
         .source = "own",
         .range = {0, 10}},
        {.name = "-contact_integration",
         .kind = OptionKind::choice,
         .fallback = "segments",
-        .meaning = "segments: over the exact intervals or polygons where a slave and a master facet overlap; elements:"
+        .meaning = "segments: over the exact intervals or polygons where a slave and a master facet overlap; "
+                   "elements:"
                    " at Gauss points of each slave facet, cheaper and less exact (-model solid)",
         .source = "own",
         .choices = {"segments", "elements"}}}};
@@ -352,23 +366,26 @@ OptionGroup output_group()
         .kind = OptionKind::real,
         .fallback = "600",
         .unit = "s",
-        .meaning = "wall time between checkpoints; 0: after each step. There is one at each phase's end in any case",
+        .meaning =
+            "wall time between checkpoints; 0: after each step. There is one at each phase's end in any case",
         .source = "own",
         .range = non_negative,
         .may_change = true},
        {.name = "-restart",
         .kind = OptionKind::path,
         .fallback = "",
-        .meaning = "continue the run in this directory with its options; those of the solver and of the output may"
-                   " change",
+        .meaning =
+            "continue the run in this directory with its options; those of the solver and of the output may"
+            " change",
         .source = "own",
         .rule = "the directory of a run that has written a checkpoint",
         .may_change = true},
        {.name = "-error_estimate",
         .kind = OptionKind::flag,
         .fallback = "false",
-        .meaning = "after the run others of the same scene, on coarser meshes and with shorter steps, and from them"
-                   " the errors of N and T at each phase's end; they take about twice the run's time",
+        .meaning =
+            "after the run others of the same scene, on coarser meshes and with shorter steps, and from them"
+            " the errors of N and T at each phase's end; they take about twice the run's time",
         .source = "own",
         .may_change = true},
        {.name = "-wall_time",

@@ -27,7 +27,8 @@ std::vector<GivenOption>::const_reverse_iterator last_of(const std::vector<Given
 
 const std::vector<TwoWays> &two_ways()
 {
-  static const std::vector<TwoWays> pairs{{"-schedule_rates", "-schedule_twists"}, {"-time_tolerance", "-ts_atol"}};
+  static const std::vector<TwoWays> pairs{{"-schedule_rates", "-schedule_twists"},
+                                          {"-time_tolerance", "-ts_atol"}};
   return pairs;
 }
 
@@ -45,7 +46,8 @@ std::vector<std::string> keep_later(std::vector<GivenOption> &options)
   for (const TwoWays &pair : two_ways()) {
     const auto first = last_of(options, pair[0]), second = last_of(options, pair[1]);
     if (first == options.rend() || second == options.rend()) continue;
-    const auto &earlier = first < second ? second : first, &later = first < second ? first : second; // reversed
+    const auto &earlier = first < second ? second : first,
+               &later = first < second ? first : second; // reversed
     notes.push_back(described(*earlier) + " gives way to " + described(*later) +
                     ": both say the same thing, and the later one counts");
     const std::string name = earlier->name;
@@ -58,8 +60,9 @@ std::vector<std::string> notes_on_sources(const std::vector<GivenOption> &option
 {
   std::vector<std::string> notes;
   for (auto option = options.begin(); option != options.end(); ++option) {
-    const auto again = std::find_if(option + 1, options.end(),
-                                    [&](const GivenOption &other) { return same_name(other.name, option->name); });
+    const auto again = std::find_if(option + 1, options.end(), [&](const GivenOption &other) {
+      return same_name(other.name, option->name);
+    });
     if (again == options.end()) {
       if (option->unasked && find_option(option->name))
         notes.push_back(described(*option) + " counts: it is read without being named");

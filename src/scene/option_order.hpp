@@ -20,7 +20,8 @@ const char *other_way(const std::string &name);
 /// Takes out what a later option says in another way; a note for each option that goes.
 std::vector<std::string> keep_later(std::vector<GivenOption> &options);
 
-/// What is given twice in one place with different values, and what counts of ours though nobody named its source.
+/// What is given twice in one place with different values, and what counts of ours though nobody named its
+/// source.
 std::vector<std::string> notes_on_sources(const std::vector<GivenOption> &options);
 
 } // namespace tribogel

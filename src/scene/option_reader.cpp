@@ -65,7 +65,8 @@ std::string OptionReader::choice(const Option &option) const
   if (word.empty()) throw UserError{option.name + ": value missing; allowed: " + option.allowed()};
   if (std::find(option.choices.begin(), option.choices.end(), word) != option.choices.end()) return word;
   const std::string meant = nearest_name(word, option.choices, plausible_distance(word));
-  refuse(option.name, word, "allowed: " + option.allowed() + (meant.empty() ? "" : "; did you mean " + meant + "?"));
+  refuse(option.name, word,
+         "allowed: " + option.allowed() + (meant.empty() ? "" : "; did you mean " + meant + "?"));
 }
 
 std::string OptionReader::path(const Option &option) const
@@ -87,7 +88,8 @@ std::vector<double> OptionReader::reals(const Option &option) const
   return values;
 }
 
-void OptionReader::expect_equal_lengths(const Option &list, const Option &reference, const std::string &otherwise) const
+void OptionReader::expect_equal_lengths(const Option &list, const Option &reference,
+                                        const std::string &otherwise) const
 {
   const std::size_t length = reals(list).size(), expected = reals(reference).size();
   if (length == expected) return;

@@ -7,8 +7,8 @@
 namespace tribogel
 {
 
-/// "-option = value: allowed", the form of every refusal of a value; a character that is not what it looks like is
-/// named.
+/// "-option = value: allowed", the form of every refusal of a value; a character that is not what it looks
+/// like is named.
 [[noreturn]] void refuse(const std::string &name, const std::string &value, const std::string &allowed);
 
 class OptionReader
@@ -33,8 +33,10 @@ public:
   std::string path(const std::string &name) const { return path(declared(name)); }
   std::vector<double> reals(const std::string &name) const { return reals(declared(name)); }
 
-  /// Refuses two lists of different lengths; names both, their texts and their lengths, and what else is allowed.
-  void expect_equal_lengths(const Option &list, const Option &reference, const std::string &otherwise = "") const;
+  /// Refuses two lists of different lengths; names both, their texts and their lengths, and what else is
+  /// allowed.
+  void expect_equal_lengths(const Option &list, const Option &reference,
+                            const std::string &otherwise = "") const;
 
   static const Option &declared(const std::string &name);
 

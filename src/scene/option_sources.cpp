@@ -38,7 +38,8 @@ std::vector<GivenOption> unpacked(const std::string &text)
   std::vector<GivenOption> options;
   std::istringstream stream(text);
   GivenOption option;
-  for (std::string line; std::getline(stream, option.name, '\0') && std::getline(stream, option.value, '\0') &&
+  for (std::string line; std::getline(stream, option.name, '\0') &&
+                         std::getline(stream, option.value, '\0') &&
                          std::getline(stream, option.source, '\0') && std::getline(stream, line, '\0');) {
     option.line = std::stoi(line);
     options.push_back(option);
@@ -80,9 +81,10 @@ OptionSources read_sources(const CommandLine &line)
   if (rank == 0) {
     try {
       if (!variable("PETSC_OPTIONS_YAML").empty())
-        throw UserError{
-            "PETSC_OPTIONS_YAML: YAML is not read, it keeps no order; allowed: PETSC_OPTIONS, or -options_file"};
-      std::vector<GivenOption> found = all_options(line, variable("PETSC_OPTIONS"), unasked_options_files(line));
+        throw UserError{"PETSC_OPTIONS_YAML: YAML is not read, it keeps no order; allowed: PETSC_OPTIONS, or "
+                        "-options_file"};
+      std::vector<GivenOption> found =
+          all_options(line, variable("PETSC_OPTIONS"), unasked_options_files(line));
       sources.notes = keep_later(found);
       for (const std::string &note : notes_on_sources(found)) sources.notes.push_back(note);
       options = packed(found);
@@ -100,8 +102,10 @@ OptionSources read_sources(const CommandLine &line)
 UserError located(const UserError &error, const OptionSources &sources)
 {
   for (auto option = sources.options.rbegin(); option != sources.options.rend(); ++option) {
-    if (!error.text.starts_with(option->name + " = ") && !error.text.starts_with(option->name + ": ")) continue;
-    return option->source == command_line_source ? error : UserError{error.text + " (" + option->place() + ")"};
+    if (!error.text.starts_with(option->name + " = ") && !error.text.starts_with(option->name + ": "))
+      continue;
+    return option->source == command_line_source ? error
+                                                 : UserError{error.text + " (" + option->place() + ")"};
   }
   return error;
 }

@@ -18,11 +18,12 @@ struct OptionSources {
   std::vector<std::string> words(const std::string &program) const; ///< for PETSc
 };
 
-/// Reads files and environment on the first process; throws UserError on all. Collective on MPI_COMM_WORLD, needs no
-/// PETSc.
+/// Reads files and environment on the first process; throws UserError on all. Collective on MPI_COMM_WORLD,
+/// needs no PETSc.
 OptionSources read_sources(const CommandLine &line);
 
-/// The same error, which also says where the option was read that it begins with, unless that is the command line.
+/// The same error, which also says where the option was read that it begins with, unless that is the command
+/// line.
 UserError located(const UserError &error, const OptionSources &sources);
 
 } // namespace tribogel

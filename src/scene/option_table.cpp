@@ -41,7 +41,8 @@ std::string Option::allowed() const
     text = "a whole number" + bounds;
     break;
   case OptionKind::reals:
-    text = (count ? std::to_string(count) + " real numbers" : "real numbers") + bounds + " separated by commas";
+    text =
+        (count ? std::to_string(count) + " real numbers" : "real numbers") + bounds + " separated by commas";
     break;
   case OptionKind::choice:
     text = joined(choices, " or ");

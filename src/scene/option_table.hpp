@@ -1,5 +1,5 @@
-/// Every option of tribogel, declared once: the reader, -help, options/README.md and the search for misspelt names all
-/// use this table. Nothing here knows PETSc.
+/// Every option of tribogel, declared once: the reader, -help, options/README.md and the search for misspelt
+/// names all use this table. Nothing here knows PETSc.
 #pragma once
 
 #include <limits>
@@ -14,7 +14,10 @@ struct Range {
   double high = std::numeric_limits<double>::infinity();
   bool low_excluded = false;
 
-  bool contains(double x) const { return (low_excluded ? x > low : x >= low) && x <= high; } ///< false for NaN
+  bool contains(double x) const
+  {
+    return (low_excluded ? x > low : x >= low) && x <= high;
+  }                             ///< false for NaN
   std::string in_words() const; ///< "> 0", ">= 1", "1 to 2", "any"
 };
 
@@ -54,8 +57,8 @@ std::vector<std::string> option_names();
 /// The entry of that name, or null.
 const Option *find_option(const std::string &name);
 
-/// The names of the four options of one Maxwell branch: moduli, exponents, bulk modulus, viscosities. `body` is "top"
-/// or "bottom"; branches count from 1, and the first has no number in its names.
+/// The names of the four options of one Maxwell branch: moduli, exponents, bulk modulus, viscosities. `body`
+/// is "top" or "bottom"; branches count from 1, and the first has no number in its names.
 struct BranchNames {
   std::string moduli, exponents, bulk_modulus, viscosities;
   std::vector<std::string> all() const { return {moduli, exponents, bulk_modulus, viscosities}; }

@@ -26,7 +26,8 @@ fs::path nearest_existing(const fs::path &path)
 {
   std::error_code ignored;
   fs::path here = fs::absolute(path, ignored);
-  while (!fs::exists(here, ignored) && here.has_parent_path() && here.parent_path() != here) here = here.parent_path();
+  while (!fs::exists(here, ignored) && here.has_parent_path() && here.parent_path() != here)
+    here = here.parent_path();
   return here;
 }
 
@@ -45,11 +46,14 @@ std::string make_directory(const OutputParameters &output)
   if (failed) remove_made(fs::absolute(output.directory, ignored), existing);
   if (!failed)
     for (const char *file : run_files) {
-      if (output.restart && std::string(file) != "summary.json") continue; // that of the run which has stopped
+      if (output.restart && std::string(file) != "summary.json")
+        continue; // that of the run which has stopped
       fs::remove(fs::path(output.directory) / file, failed);
       if (failed) break;
     }
-  return failed ? option_text(output) + failed.message() + "; allowed: a directory that can be made and written" : "";
+  return failed
+             ? option_text(output) + failed.message() + "; allowed: a directory that can be made and written"
+             : "";
 }
 
 } // namespace
@@ -66,7 +70,8 @@ std::string objection_to(const OutputParameters &output)
   if (!output.overwrite && !output.restart)
     for (const char *file : run_files)
       if (fs::exists(fs::path(output.directory) / file, ignored))
-        return option_text(output) + "holds a run (" + file + "); allowed: a directory without one, or -overwrite";
+        return option_text(output) + "holds a run (" + file +
+               "); allowed: a directory without one, or -overwrite";
   return {};
 }
 

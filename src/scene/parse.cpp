@@ -73,7 +73,8 @@ Parsed<std::vector<double>> parse_reals(std::string_view text)
   Reals values;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
-    if (end == begin) return failed<Reals>("number " + std::to_string(values.size() + 1) + " of the list is empty");
+    if (end == begin)
+      return failed<Reals>("number " + std::to_string(values.size() + 1) + " of the list is empty");
     const Parsed<double> item = parse_real(text.substr(begin, end - begin));
     if (!item.value) return failed<Reals>(item.error);
     values.push_back(*item.value);
@@ -86,8 +87,9 @@ std::string to_text(double value)
 {
   char buffer[64];
   const bool short_integer = std::abs(value) < 1e9 && value == std::floor(value); // 2000000 rather than 2e+06
-  const auto result = short_integer ? std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed)
-                                    : std::to_chars(buffer, buffer + sizeof buffer, value);
+  const auto result = short_integer
+                          ? std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed)
+                          : std::to_chars(buffer, buffer + sizeof buffer, value);
   return {buffer, result.ptr};
 }
 

@@ -34,7 +34,10 @@ const std::vector<Limit> &limits()
       {"-ts_init_time", "a run begins at t = 0", {}, "; to continue one: -restart"},
       {"-ts_exact_final_time", "phases end exactly when the schedule says", {"matchstep"}},
       {"-ts_error_if_step_fails", "a run that cannot go on keeps what it has and ends with status 3", no},
-      {"-ts_convergence_estimate", "it would run phases again in the midst of the run", {}, "; use -error_estimate"},
+      {"-ts_convergence_estimate",
+       "it would run phases again in the midst of the run",
+       {},
+       "; use -error_estimate"},
       // How long steps are.
       {"-ts_adapt_type", "the steps follow the error of N and T", {"basic", "dsp", "none"}},
       {"-ts_adapt_dt_min",
@@ -42,7 +45,11 @@ const std::vector<Limit> &limits()
        {},
        "; -ts_dt is the first step of each phase, -time_tolerance what the steps follow"},
       {"-ts_rtol", "the error of a step is held against the largest N and T", {}, "; use -time_tolerance"},
-      {"-ts_atol", "it is the error of N and T over their largest values", {}, "; or use -time_tolerance", &fraction},
+      {"-ts_atol",
+       "it is the error of N and T over their largest values",
+       {},
+       "; or use -time_tolerance",
+       &fraction},
       {"-ts_adapt_always_accept", "the steps keep to the tolerance", no, "; use a larger -time_tolerance"},
       {"-ts_adapt_wnormtype", "the error is that of N and T, not a norm of the unknowns", {}},
       {"-ts_adapt_max_ignore", "the error is that of N and T, not a norm of the unknowns", {}},
@@ -50,7 +57,8 @@ const std::vector<Limit> &limits()
       {"-ts_theta_theta", "the time rule is fixed", {"1"}, "; use -maxwell_integrator"},
       {"-ts_theta_endpoint", "the time rule is fixed", no, "; use -maxwell_integrator"},
       {"-ts_use_splitrhsfunction", "the equations have no right-hand side to split", no},
-      {"-ts_rhs_jacobian_test_mult", "the equations have no right-hand side", no, "; use -snes_test_jacobian"},
+      {"-ts_rhs_jacobian_test_mult", "the equations have no right-hand side", no,
+       "; use -snes_test_jacobian"},
       {"-ts_rhs_jacobian_test_mult_transpose", "the equations have no right-hand side", no,
        "; use -snes_test_jacobian"},
       {"-ts_save_trajectory", "it would write beside the output directory", no,
@@ -64,10 +72,15 @@ const std::vector<Limit> &limits()
       {"-snes_atol", "what may be left is relative to the forces that meet", {}, "; use -snes_rtol"},
       {"-snes_stol", "a short step is no balance of forces", {"0"}, "; use -snes_rtol"},
       {"-snes_max_funcs", "nothing counts them", {}, "; use -snes_max_it"},
-      {"-snes_divergence_tolerance", "the residual may rise while the contact changes", {"-1"}, "; use -snes_max_it"},
+      {"-snes_divergence_tolerance",
+       "the residual may rise while the contact changes",
+       {"-1"},
+       "; use -snes_max_it"},
       {"-snes_norm_schedule", "each iteration's residual is looked at", {"always"}},
       {"-snes_function_type", "it is the forces that are looked at", {"unpreconditioned", "default"}},
-      {"-snes_type", "other methods do not look at the forces or do not balance them", {"newtonls", "newtontr"}},
+      {"-snes_type",
+       "other methods do not look at the forces or do not balance them",
+       {"newtonls", "newtontr"}},
       {"-snes_linesearch_type", "there are these", {"basic", "bt", "l2", "cp", "nleqerr"}},
       {"-snes_error_if_not_converged", "a step that is not solved is tried again with a shorter one", no},
       {"-ksp_error_if_not_converged", "a step that is not solved is tried again with a shorter one", no},
@@ -107,11 +120,12 @@ void check_petsc_option(const std::string &name, const std::string &value)
   for (const Limit &limit : limits()) {
     if (!same_name(limit.name, name)) continue;
     const Parsed<double> number = parse_real(value);
-    const bool fits = limit.range ? value.empty() || (number.value && limit.range->contains(*number.value))
-                                  : std::find(limit.allowed.begin(), limit.allowed.end(), value) != limit.allowed.end();
+    const bool fits =
+        limit.range ? value.empty() || (number.value && limit.range->contains(*number.value))
+                    : std::find(limit.allowed.begin(), limit.allowed.end(), value) != limit.allowed.end();
     if (!fits)
-      throw UserError{name + (value.empty() ? "" : " = " + value) + ": " + limit.why + "; allowed: " + in_words(limit) +
-                      limit.instead};
+      throw UserError{name + (value.empty() ? "" : " = " + value) + ": " + limit.why +
+                      "; allowed: " + in_words(limit) + limit.instead};
   }
 }
 

@@ -54,9 +54,10 @@ std::string without_dashes(const std::string &name)
 /// First words of our names, in use or kept for us; no option of PETSc begins like that.
 bool begins_like_ours(const std::string &name)
 {
-  static const char *const words[] = {"model",    "task",      "specimens",  "top",      "bottom",  "initial", "plate",
-                                      "friction", "schedule",  "element",    "elements", "contact", "maxwell", "time",
-                                      "output",   "overwrite", "checkpoint", "restart",  "wall",    "phase"};
+  static const char *const words[] = {"model",     "task",       "specimens", "top",      "bottom",
+                                      "initial",   "plate",      "friction",  "schedule", "element",
+                                      "elements",  "contact",    "maxwell",   "time",     "output",
+                                      "overwrite", "checkpoint", "restart",   "wall",     "phase"};
   const std::string plain = without_dashes(name);
   const std::string first = plain.substr(0, plain.find_first_of("_="));
   return std::any_of(std::begin(words), std::end(words), [&](const char *word) { return first == word; }) ||
@@ -68,14 +69,17 @@ std::string with_value(const std::string &name, const std::string &text)
   return "-" + name + (text.empty() ? "" : " = " + text);
 }
 
-std::string unknown_text(const std::string &name, const std::string &text, const std::vector<std::string> &known)
+std::string unknown_text(const std::string &name, const std::string &text,
+                         const std::vector<std::string> &known)
 {
   static const std::regex branch(
       "(top|bottom)_maxwell([0-9]+)_(ogden_moduli|ogden_exponents|bulk_modulus|viscosities)");
   if (std::regex_match(without_dashes(name), branch))
-    return with_value(name, text) + ": no branch of that number; allowed: -top_maxwell_..., -top_maxwell2_..., "
-                                    "-top_maxwell3_... and so on (likewise bottom), numbered without gaps";
-  const std::string nearest = nearest_name("-" + without_dashes(name), known, std::max(4, plausible_distance(name)));
+    return with_value(name, text) +
+           ": no branch of that number; allowed: -top_maxwell_..., -top_maxwell2_..., "
+           "-top_maxwell3_... and so on (likewise bottom), numbered without gaps";
+  const std::string nearest =
+      nearest_name("-" + without_dashes(name), known, std::max(4, plausible_distance(name)));
   return with_value(name, text) + ": unknown option; allowed: the names in -help and -help petsc" +
          (nearest.empty() ? "" : "; the nearest is " + nearest);
 }
@@ -109,7 +113,8 @@ PetscErrorCode ExpectNumbers(const std::string &help)
     if (!std::regex_search(line, parts, entry)) continue;
     const std::string name = parts[1];
     PetscCall(GetOption(name, given, found));
-    if (found && given[name].empty()) throw UserError{name + ": value missing; allowed: a number, see -help petsc"};
+    if (found && given[name].empty())
+      throw UserError{name + ": value missing; allowed: a number, see -help petsc"};
   }
   PetscFunctionReturn(0);
 }
@@ -126,8 +131,10 @@ bool is_read_late(const std::string &name)
   for (const char *stem :
        {"options_view", "options_monitor", "malloc", "log_", "memory_", "info", "history", "checkstack"})
     if (name.starts_with(stem)) return true;
-  for (const char *stem : {"ts_", "snes_", "ksp_", "pc_", "mat_", "vec_", "dm_", "sub_", "mg_", "fieldsplit_"})
-    if (name.starts_with(stem) && (name.find("_view") != std::string::npos || name.ends_with("_converged_reason")))
+  for (const char *stem :
+       {"ts_", "snes_", "ksp_", "pc_", "mat_", "vec_", "dm_", "sub_", "mg_", "fieldsplit_"})
+    if (name.starts_with(stem) &&
+        (name.find("_view") != std::string::npos || name.ends_with("_converged_reason")))
       return true;
   return false;
 }
@@ -151,7 +158,8 @@ PetscErrorCode ReadGivenOptions(GivenOptions &given)
   PetscCall(GetLeftOptions(left));
   for (const LeftOption &option : left) {
     const std::string plain = "-" + without_dashes(option.name);
-    if (begins_like_ours(option.name) || !nearest_name(plain, option_names(), plausible_distance(plain)).empty())
+    if (begins_like_ours(option.name) ||
+        !nearest_name(plain, option_names(), plausible_distance(plain)).empty())
       throw UserError{unknown_text(option.name, option.text, option_names())};
   }
   PetscFunctionReturn(0);
@@ -166,13 +174,15 @@ PetscErrorCode ReadScene(const OptionSources &sources, SceneInput &input)
   for (const std::string &name : limited_petsc_options()) PetscCall(GetOption(name, of_petsc, found));
   for (const auto &[name, value] : of_petsc) check_petsc_option(name, value);
   input = scene_from_options(given);
-  input.notes.insert(input.notes.begin(), sources.notes.begin(), sources.notes.end()); // the first process has them
+  input.notes.insert(input.notes.begin(), sources.notes.begin(),
+                     sources.notes.end()); // the first process has them
   const auto tolerance = of_petsc.find("-ts_atol"), control = of_petsc.find("-ts_adapt_type");
   if (tolerance != of_petsc.end() && !given.count("-time_tolerance"))
-    input.notes.push_back("-ts_atol = " + tolerance->second + ": the steps follow it in place of -time_tolerance");
+    input.notes.push_back("-ts_atol = " + tolerance->second +
+                          ": the steps follow it in place of -time_tolerance");
   if (control != of_petsc.end() && control->second == "none")
-    input.notes.push_back(
-        "-ts_adapt_type = none: the steps are as long as each phase's first (-ts_dt) and follow no tolerance");
+    input.notes.push_back("-ts_adapt_type = none: the steps are as long as each phase's first (-ts_dt) and "
+                          "follow no tolerance");
   PetscFunctionReturn(0);
 }
 

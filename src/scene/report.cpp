@@ -23,10 +23,10 @@ std::string number(double x)
 
 std::string describe(const Ogden<double> &law)
 {
-  return std::to_string(law.moduli.size()) + (law.moduli.size() == 1 ? " Ogden term" : " Ogden terms") + ", G " +
-         number(law.shear_modulus()) + " MPa, K " + number(law.bulk_modulus) +
-         (law.volumetric_law == VolumetricLaw::quadratic ? " MPa (quadratic)" : " MPa") + ", Poisson's ratio " +
-         number(initial_poisson_ratio(law));
+  return std::to_string(law.moduli.size()) + (law.moduli.size() == 1 ? " Ogden term" : " Ogden terms") +
+         ", G " + number(law.shear_modulus()) + " MPa, K " + number(law.bulk_modulus) +
+         (law.volumetric_law == VolumetricLaw::quadratic ? " MPa (quadratic)" : " MPa") +
+         ", Poisson's ratio " + number(initial_poisson_ratio(law));
 }
 
 std::string describe(const Specimen &specimen, const std::string &name, bool from_file)
@@ -67,8 +67,8 @@ std::string describe(const Schedule &schedule, double radius)
     turned += std::abs(angle);
     fastest = std::max(fastest, std::abs(phase.rate));
     char line[128];
-    std::snprintf(line, sizeof line, "  %5zu %12.6g %12.5g %12.5g %10.4g\n", k + 1, phase.end_time, phase.end_approach,
-                  phase.rate, angle / (2 * std::numbers::pi));
+    std::snprintf(line, sizeof line, "  %5zu %12.6g %12.5g %12.5g %10.4g\n", k + 1, phase.end_time,
+                  phase.end_approach, phase.rate, angle / (2 * std::numbers::pi));
     text += line;
   }
   return text + "  altogether " + number(turned / (2 * std::numbers::pi)) + " turns; fastest rim speed " +
@@ -81,8 +81,9 @@ std::string describe_placing(const Scene &scene)
   const Misalignment &m = scene.misalignment;
   std::string text = "; initial gap " + number(scene.initial_gap) + " mm\n";
   if (m.any())
-    text += "  the top plate's axis stands at x = " + number(m.offset[0]) + " mm, y = " + number(m.offset[1]) +
-            " mm from the bottom's; its face is inclined by " + number(m.tilt) + " rad\n";
+    text += "  the top plate's axis stands at x = " + number(m.offset[0]) +
+            " mm, y = " + number(m.offset[1]) + " mm from the bottom's; its face is inclined by " +
+            number(m.tilt) + " rad\n";
   return text;
 }
 
@@ -103,28 +104,33 @@ std::string describe_mesh(const Scene &scene, const std::string &mesh_file)
   } else {
     text += std::to_string(scene.mesh.elements_radial << scene.mesh.refinements) + " along the radius";
     if (scene.has_top && scene.mesh.bottom_elements_radial > 0)
-      text += " (bottom gel: " + std::to_string(scene.mesh.bottom_elements_radial << scene.mesh.refinements) + ")";
+      text += " (bottom gel: " + std::to_string(scene.mesh.bottom_elements_radial << scene.mesh.refinements) +
+              ")";
     text += ", grading " + number(scene.mesh.grading);
   }
   if (scene.has_top && scene.contact_integration == ContactIntegration::elements)
     text += ", contact at Gauss points of each slave facet";
-  return text + "\n  side walls " + (scene.plate_contact ? "may touch the plates" : "do not feel the plates") + "\n";
+  return text + "\n  side walls " +
+         (scene.plate_contact ? "may touch the plates" : "do not feel the plates") + "\n";
 }
 
 std::string describe_time(const Scene &scene)
 {
-  if (scene.schedule_kind == ScheduleKind::steady) return "  steady states only: the way there is not computed\n";
+  if (scene.schedule_kind == ScheduleKind::steady)
+    return "  steady states only: the way there is not computed\n";
   std::string text = std::string("  time rule ") +
                      (scene.time.rule == TimeRule::sdirk2 ? "sdirk2" : "exponential_euler") + ", steps to " +
                      number(scene.time.tolerance) + " % of the largest N and T";
   if (scene.phase_end_tolerance > 0)
-    text += "; a phase ends in one step once they change by less than " + number(scene.phase_end_tolerance) + " %";
+    text += "; a phase ends in one step once they change by less than " + number(scene.phase_end_tolerance) +
+            " %";
   return text + "\n";
 }
 
 std::string describe(const OutputParameters &output)
 {
-  std::string text = std::string(output.restart ? "  continues the run in " : "  output in ") + output.directory;
+  std::string text =
+      std::string(output.restart ? "  continues the run in " : "  output in ") + output.directory;
   if (std::isfinite(output.wall_time)) text += ", stops after " + number(output.wall_time) + " s";
   return text + "\n";
 }

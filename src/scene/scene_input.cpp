@@ -27,11 +27,11 @@ void read_geometry(const OptionReader &reader, Scene &scene)
   scene.plate_contact = reader.flag("-plate_contact");
   if (!reader.is_given("-mesh_file") && scene.has_top && scene.top.radius > scene.bottom.radius) {
     const Option &option = OptionReader::declared("-top_radius");
-    refuse(
-        "-top_radius", reader.text(option),
-        "allowed: " + option.allowed() + ", here -bottom_radius = " + to_text(scene.bottom.radius) +
-            ". If the wider gel is the upper one, exchange the two, -top_ for -bottom_ in all options: N and T are the "
-            "same");
+    refuse("-top_radius", reader.text(option),
+           "allowed: " + option.allowed() + ", here -bottom_radius = " + to_text(scene.bottom.radius) +
+               ". If the wider gel is the upper one, exchange the two, -top_ for -bottom_ in all options: N "
+               "and T are the "
+               "same");
   }
 }
 
@@ -51,12 +51,14 @@ void read_misalignment(const OptionReader &reader, Scene &scene)
   if (!scene.has_top) return;
   scene.misalignment = {{c[0], c[1]}, angle};
   if (reader.is_given("-mesh_file")) {
-    if (angle != 0) refuse(tilt.name, reader.text(tilt), "allowed: 0 with -mesh_file, whose plates are level");
+    if (angle != 0)
+      refuse(tilt.name, reader.text(tilt), "allowed: 0 with -mesh_file, whose plates are level");
     return; // how far the bottom specimen reaches is not known yet
   }
   for (const Option *option : {&offset, &tilt})
     if (scene.model == Model::axisymmetric && scene.misalignment.any() && reader.is_given(option->name))
-      refuse(option->name, reader.text(*option), "allowed: " + option->fallback + " with -model axisymmetric");
+      refuse(option->name, reader.text(*option),
+             "allowed: " + option->fallback + " with -model axisymmetric");
   const double beyond = disc_overhang(scene.top.radius, scene.bottom.radius, std::hypot(c[0], c[1]));
   if (beyond > largest_overhang)
     refuse(offset.name, reader.text(offset),
@@ -75,8 +77,9 @@ void read_mesh_file(const OptionReader &reader, SceneInput &input)
   input.scene.round = false;
   if (input.scene.model != Model::solid) refuse(option.name, input.mesh_file, "allowed: with -model solid");
   std::string idle;
-  for (const char *name : {"-top_radius", "-top_height", "-bottom_radius", "-bottom_height", "-initial_gap",
-                           "-elements_radial", "-bottom_elements_radial", "-mesh_grading", "-mesh_refinements"})
+  for (const char *name :
+       {"-top_radius", "-top_height", "-bottom_radius", "-bottom_height", "-initial_gap", "-elements_radial",
+        "-bottom_elements_radial", "-mesh_grading", "-mesh_refinements"})
     if (reader.is_given(name)) idle += (idle.empty() ? "" : ", ") + std::string(name);
   if (!idle.empty()) input.notes.push_back("without effect with -mesh_file: " + idle);
 }
@@ -103,13 +106,16 @@ void read_friction(const OptionReader &reader, SceneInput &input)
   for (std::size_t i = 0; i < m.size(); ++i) {
     if (PolynomialFriction<double>::steep(m[i]) && b[i] < 0)
       refuse(coefficients.name, reader.text(coefficients),
-             to_text(b[i]) + " with exponent " + to_text(m[i]) + "; allowed: >= 0 with an exponent between 0 and 1");
+             to_text(b[i]) + " with exponent " + to_text(m[i]) +
+                 "; allowed: >= 0 with an exponent between 0 and 1");
     if (m[i] == 0) at_rest += b[i];
   }
   if (at_rest < 0)
     refuse(coefficients.name, reader.text(coefficients),
-           "the coefficient at rest is " + to_text(at_rest) + "; allowed: the terms with exponent 0 add up to >= 0");
-  const double a = reader.real("-friction_pressure_exponent"), floor = reader.real("-friction_pressure_floor");
+           "the coefficient at rest is " + to_text(at_rest) +
+               "; allowed: the terms with exponent 0 add up to >= 0");
+  const double a = reader.real("-friction_pressure_exponent"),
+               floor = reader.real("-friction_pressure_floor");
   const auto speeds = read_speed_range(reader);
   if (!input.scene.has_top) return;
   if (polynomial) {
@@ -118,9 +124,10 @@ void read_friction(const OptionReader &reader, SceneInput &input)
     if (a == 1 && reader.is_given("-friction_pressure_floor"))
       input.notes.push_back("without effect with -friction_pressure_exponent 1: -friction_pressure_floor");
     if (*std::min_element(b.begin(), b.end()) < 0)
-      input.notes.push_back("-friction_coefficients = " + reader.text(coefficients) +
-                            ": friction that weakens with speed has unstable sliding states, and mu(v) may become"
-                            " negative at high speed");
+      input.notes.push_back(
+          "-friction_coefficients = " + reader.text(coefficients) +
+          ": friction that weakens with speed has unstable sliding states, and mu(v) may become"
+          " negative at high speed");
     return;
   }
   std::string idle;
@@ -157,11 +164,13 @@ void check_approach(SceneInput &input)
   double largest = scene.schedule.front().end_approach;
   for (const Phase &phase : scene.schedule) largest = std::max(largest, phase.end_approach);
   if (!(largest < height))
-    refuse("-schedule_approach", text,
-           "allowed: each less than " + to_text(height) + " mm, " +
-               (scene.has_top ? "both heights and -initial_gap together" : "the height of the bottom specimen"));
+    refuse(
+        "-schedule_approach", text,
+        "allowed: each less than " + to_text(height) + " mm, " +
+            (scene.has_top ? "both heights and -initial_gap together" : "the height of the bottom specimen"));
   if (scene.has_top && largest <= scene.initial_gap)
-    input.notes.push_back("-schedule_approach = " + text + ": the specimens are never pressed together (-initial_gap " +
+    input.notes.push_back("-schedule_approach = " + text +
+                          ": the specimens are never pressed together (-initial_gap " +
                           to_text(scene.initial_gap) + " mm)");
 }
 
@@ -178,10 +187,12 @@ void read_schedule(const OptionReader &reader, SceneInput &input)
       read_per_phase(reader, OptionReader::declared("-schedule_approach"), ends.size(), approach_text);
   input.options.emplace_back("schedule_approach", approach_text);
 
-  const Option &rates = OptionReader::declared("-schedule_rates"), &twists = OptionReader::declared("-schedule_twists");
+  const Option &rates = OptionReader::declared("-schedule_rates"),
+               &twists = OptionReader::declared("-schedule_twists");
   const bool by_twists = reader.is_given(twists.name);
   if (by_twists && reader.is_given(rates.name))
-    refuse(twists.name, reader.text(twists), "allowed: not together with -schedule_rates = " + reader.text(rates));
+    refuse(twists.name, reader.text(twists),
+           "allowed: not together with -schedule_rates = " + reader.text(rates));
   const Option &turning = by_twists ? twists : rates;
   const std::vector<double> values = read_per_phase(reader, turning, ends.size(), turning_text);
   input.scene.schedule =
@@ -196,24 +207,24 @@ void read_schedule_kind(const OptionReader &reader, SceneInput &input)
   Scene &scene = input.scene;
   if (reader.choice("-schedule_kind") == "transient") return;
   if (scene.loads_turn())
-    refuse(
-        "-schedule_kind", "steady",
-        "allowed: transient with -top_offset, -top_tilt or -mesh_file, whose specimens may be other than round: each "
-        "turn loads the gels anew");
+    refuse("-schedule_kind", "steady",
+           "allowed: transient with -top_offset, -top_tilt or -mesh_file, whose specimens may be other than "
+           "round: each "
+           "turn loads the gels anew");
   scene.schedule_kind = ScheduleKind::steady;
   if (!scene.has_top) return;
   const bool holds = scene.friction.static_strength(1.0).value > 0;
   for (std::size_t k = 0; k < scene.schedule.size(); ++k)
     if (holds && scene.schedule[k].rate == 0)
-      refuse(
-          "-schedule_kind", "steady",
-          "phase " + std::to_string(k + 1) +
-              " is at rest, where static friction depends on the way there; allowed: transient, phases that turn, or "
-              "no coefficient with the exponent 0");
+      refuse("-schedule_kind", "steady",
+             "phase " + std::to_string(k + 1) +
+                 " is at rest, where static friction depends on the way there; allowed: transient, phases "
+                 "that turn, or "
+                 "no coefficient with the exponent 0");
 }
 
-/// The default mesh in space. Elements of order 2, the paper scene's steady states at 1 rad/s with walls at the plates
-/// (the axisymmetric model's limit is 290.4 N, 11.44 N mm; one core, all five phases):
+/// The default mesh in space. Elements of order 2, the paper scene's steady states at 1 rad/s with walls at
+/// the plates (the axisymmetric model's limit is 290.4 N, 11.44 N mm; one core, all five phases):
 ///
 ///     elements  grading  unknowns  N [N]    T [N mm]  CPU [s]
 ///     3         1        6795      291.92   11.517    7
@@ -239,11 +250,13 @@ void read_discretisation(const OptionReader &reader, SceneInput &input)
                                    ? std::stoi(SolidMesh::elements_radial)
                                    : reader.integer("-elements_radial");
   scene.mesh.bottom_elements_radial = reader.integer("-bottom_elements_radial");
-  scene.mesh.grading =
-      in_space("-mesh_grading", SolidMesh::grading) ? std::stod(SolidMesh::grading) : reader.real("-mesh_grading");
+  scene.mesh.grading = in_space("-mesh_grading", SolidMesh::grading) ? std::stod(SolidMesh::grading)
+                                                                     : reader.real("-mesh_grading");
   scene.mesh.refinements = reader.integer("-mesh_refinements");
-  for (const char *name : {"-elements_radial", "-bottom_elements_radial"}) // one cell would fill the whole circle
-    if (scene.model == Model::solid && scene.has_top && reader.integer(name) == 1 && scene.mesh.refinements == 0)
+  for (const char *name :
+       {"-elements_radial", "-bottom_elements_radial"}) // one cell would fill the whole circle
+    if (scene.model == Model::solid && scene.has_top && reader.integer(name) == 1 &&
+        scene.mesh.refinements == 0)
       refuse(name, "1", "allowed: at least 2 with -model solid, whose circles need a ring of cells");
   scene.phase_end_tolerance = reader.real("-phase_end_tolerance");
   if (scene.loads_turn() && scene.phase_end_tolerance > 0)
@@ -277,14 +290,15 @@ void warn_about_relaxation(const Scene &scene, SceneInput &input)
       const double time = shape_relaxation_time(branch);
       if (time < 1e-6 * shortest)
         input.warnings.push_back(branch_names(body, static_cast<int>(k) + 1).viscosities + " = " +
-                                 to_text(branch.deviatoric_viscosity) + "," + to_text(branch.volumetric_viscosity) +
-                                 ": relaxation time " + to_text(time) + " s, while the shortest phase takes " +
-                                 to_text(shortest) + " s; the branch will not be seen. Is it in MPa s?");
+                                 to_text(branch.deviatoric_viscosity) + "," +
+                                 to_text(branch.volumetric_viscosity) + ": relaxation time " + to_text(time) +
+                                 " s, while the shortest phase takes " + to_text(shortest) +
+                                 " s; the branch will not be seen. Is it in MPa s?");
       if (time > 1e3 * scene.schedule.back().end_time)
         input.warnings.push_back(branch_names(body, static_cast<int>(k) + 1).viscosities + " = " +
-                                 to_text(branch.deviatoric_viscosity) + "," + to_text(branch.volumetric_viscosity) +
-                                 ": relaxation time " + to_text(time) + " s, while the schedule takes " +
-                                 to_text(scene.schedule.back().end_time) +
+                                 to_text(branch.deviatoric_viscosity) + "," +
+                                 to_text(branch.volumetric_viscosity) + ": relaxation time " + to_text(time) +
+                                 " s, while the schedule takes " + to_text(scene.schedule.back().end_time) +
                                  " s; the branch will not relax. Is it in MPa s?");
     }
   };
@@ -296,7 +310,8 @@ void warn_about_relaxation(const Scene &scene, SceneInput &input)
 void read_output(const OptionReader &reader, SceneInput &input)
 {
   OutputParameters &output = input.scene.output;
-  const Option &directory = OptionReader::declared("-output_directory"), &restart = OptionReader::declared("-restart");
+  const Option &directory = OptionReader::declared("-output_directory"),
+               &restart = OptionReader::declared("-restart");
   output.directory = reader.path(directory);
   output.overwrite = reader.flag("-overwrite");
   output.error_estimate = reader.flag("-error_estimate");
@@ -304,7 +319,9 @@ void read_output(const OptionReader &reader, SceneInput &input)
   if (reader.is_given("-wall_time")) output.wall_time = reader.real("-wall_time");
   if (!reader.is_given(restart.name)) return;
   const std::string where = reader.path(restart);
-  const auto plain = [](const std::string &path) { return std::filesystem::path(path + "/").lexically_normal(); };
+  const auto plain = [](const std::string &path) {
+    return std::filesystem::path(path + "/").lexically_normal();
+  };
   if (output.overwrite) refuse("-overwrite", "true", "allowed: not together with -restart = " + where);
   if (reader.is_given(directory.name) && plain(output.directory) != plain(where))
     refuse(directory.name, output.directory, "allowed: with -restart nothing, or its directory " + where);
@@ -328,15 +345,18 @@ void note_idle_without_top(const GivenOptions &given, SceneInput &input)
 void resolve_the_rest(const OptionReader &reader, SceneInput &input)
 {
   const auto resolved = [&](const std::string &name) {
-    return std::any_of(input.options.begin(), input.options.end(), [&](const auto &o) { return o.first == name; });
+    return std::any_of(input.options.begin(), input.options.end(),
+                       [&](const auto &o) { return o.first == name; });
   };
   std::vector<std::pair<std::string, std::string>> all;
   for (const OptionGroup &group : option_table())
     for (const Option &option : group.options) {
-      const bool turning = option.name == "-schedule_rates" || option.name == "-schedule_twists"; // one of the two
+      const bool turning =
+          option.name == "-schedule_rates" || option.name == "-schedule_twists"; // one of the two
       if (turning || resolved(option.name.substr(1))) continue;
       const std::string text = reader.text(option);
-      all.emplace_back(option.name.substr(1), option.kind == OptionKind::flag && text.empty() ? "true" : text);
+      all.emplace_back(option.name.substr(1),
+                       option.kind == OptionKind::flag && text.empty() ? "true" : text);
     }
   input.options.insert(input.options.begin(), all.begin(), all.end());
 }

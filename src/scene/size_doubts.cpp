@@ -10,8 +10,9 @@ namespace tribogel
 namespace
 {
 
-/// Specimens of rheometers are disks of 4 to 60 mm across and of a tenth of a millimetre to some centimetres in height.
-/// A tenth of the smallest and ten times the largest are not doubted; a wrong unit is off by a thousand.
+/// Specimens of rheometers are disks of 4 to 60 mm across and of a tenth of a millimetre to some centimetres
+/// in height. A tenth of the smallest and ten times the largest are not doubted; a wrong unit is off by a
+/// thousand.
 constexpr double smallest_radius = 0.2, smallest_height = 0.01, largest = 300; // mm
 
 /// Four digits.
@@ -51,9 +52,10 @@ void judge_sizes(SceneInput &input)
   if (scene.has_top) judge_both("top", scene.top);
   judge_both("bottom", scene.bottom);
   if (odd.empty()) return;
-  input.warnings.push_back((input.mesh_file.empty() ? odd : "-mesh_file = " + input.mesh_file + " stands for " + odd) +
-                           ": lengths are in mm, and a rheometer hardly takes a specimen so " +
-                           (large ? "large; was it meant in micrometres?" : "small; was it meant in metres?"));
+  input.warnings.push_back(
+      (input.mesh_file.empty() ? odd : "-mesh_file = " + input.mesh_file + " stands for " + odd) +
+      ": lengths are in mm, and a rheometer hardly takes a specimen so " +
+      (large ? "large; was it meant in micrometres?" : "small; was it meant in metres?"));
 }
 
 void judge_faces(SceneInput &input, const SpecimenSizes &sizes)
@@ -65,12 +67,13 @@ void judge_faces(SceneInput &input, const SpecimenSizes &sizes)
     const std::string name = body == 1 ? "top_contact" : scene.has_top ? "bottom_contact" : "top_plate";
     const auto &centroid = sizes.centroid[body];
     if (!sizes.around_axis[body])
-      input.warnings.push_back(file + "the plates' axis x = y = 0 lies outside of " + name +
-                               ", which has its centroid at " + in_brackets(centroid, sizes.radius[body]) +
-                               " and the area of a circle with the radius " + four_digits(sizes.radius[body]) +
-                               " mm: turning carries the gel around the axis");
+      input.warnings.push_back(
+          file + "the plates' axis x = y = 0 lies outside of " + name + ", which has its centroid at " +
+          in_brackets(centroid, sizes.radius[body]) + " and the area of a circle with the radius " +
+          four_digits(sizes.radius[body]) + " mm: turning carries the gel around the axis");
     else if (std::hypot(centroid[0], centroid[1]) > beside * sizes.radius[body])
-      input.notes.push_back(file + name + " has its centroid at " + in_brackets(centroid, sizes.radius[body]) +
+      input.notes.push_back(file + name + " has its centroid at " +
+                            in_brackets(centroid, sizes.radius[body]) +
                             ", beside the plates' axis x = y = 0");
   }
   double pressed = 0;
@@ -78,8 +81,8 @@ void judge_faces(SceneInput &input, const SpecimenSizes &sizes)
   if (!scene.has_top || pressed == 0 || sizes.unevenness <= pressed) return;
   scene.even_faces = false;
   input.notes.push_back(
-      file + "the contact faces are uneven by " + four_digits(sizes.unevenness) + " mm and pressed together by " +
-      four_digits(pressed) +
+      file + "the contact faces are uneven by " + four_digits(sizes.unevenness) +
+      " mm and pressed together by " + four_digits(pressed) +
       " mm, so that they touch in part; mu_apparent and mu_gong, which take all of the face as evenly "
       "pressed, are nan");
 }

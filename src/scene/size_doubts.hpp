@@ -9,8 +9,8 @@ namespace tribogel
 /// A warning where a size in mm looks like one in another unit.
 void judge_sizes(SceneInput &input);
 
-/// What is odd about the contact faces of a mesh file: warnings and notes. Faces that touch in part only are marked in
-/// the scene.
+/// What is odd about the contact faces of a mesh file: warnings and notes. Faces that touch in part only are
+/// marked in the scene.
 void judge_faces(SceneInput &input, const SpecimenSizes &sizes);
 
 } // namespace tribogel

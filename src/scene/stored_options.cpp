@@ -21,7 +21,8 @@ Json parsed(const std::string &stored)
 {
   Json json = Json::parse(stored, nullptr, false);
   if (json.is_discarded() || !json.is_object())
-    throw UserError{"-restart: the checkpoint's options are damaged; allowed: a checkpoint as it was written"};
+    throw UserError{
+        "-restart: the checkpoint's options are damaged; allowed: a checkpoint as it was written"};
   return json;
 }
 
@@ -59,7 +60,8 @@ PetscErrorCode AdoptPart(const Json &part)
   for (const auto &[name, text] : part.items()) {
     PetscBool given, otherwise = PETSC_FALSE;
     PetscCall(PetscOptionsHasName(nullptr, nullptr, name.c_str(), &given));
-    if (const char *other = other_way(name)) PetscCall(PetscOptionsHasName(nullptr, nullptr, other, &otherwise));
+    if (const char *other = other_way(name))
+      PetscCall(PetscOptionsHasName(nullptr, nullptr, other, &otherwise));
     if (given || otherwise) continue;
     const auto value = text.get<std::string>();
     PetscCall(PetscOptionsSetValue(nullptr, name.c_str(), value.empty() ? nullptr : value.c_str()));

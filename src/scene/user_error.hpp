@@ -1,5 +1,5 @@
-/// Bad input, in words for the user. Thrown by our own code and caught in main, which prints the text once, after
-/// "tribogel: error: ", and exits with status 2. Never thrown inside a function that PETSc calls.
+/// Bad input, in words for the user. Thrown by our own code and caught in main, which prints the text once,
+/// after "tribogel: error: ", and exits with status 2. Never thrown inside a function that PETSc calls.
 #pragma once
 
 #include <string>

@@ -76,8 +76,8 @@ PetscErrorCode Jacobian(DM, PetscReal time, Vec U, Vec Udot, PetscReal shift, Ma
   PetscFunctionReturn(0);
 }
 
-/// Start of a solve: the last step's motion goes on, and so does its change unless the step is much longer than those
-/// it is known from. After a jump of the plate's motion nothing is known.
+/// Start of a solve: the last step's motion goes on, and so does its change unless the step is much longer
+/// than those it is known from. After a jump of the plate's motion nothing is known.
 PetscErrorCode Predict(SNES, Vec U, void *context)
 {
   auto &problem = *static_cast<Problem *>(context);
@@ -101,8 +101,8 @@ PetscErrorCode Predict(SNES, Vec U, void *context)
   PetscFunctionReturn(0);
 }
 
-/// Start of a Newton iteration: the surfaces may have slid out of the matrix's pattern, and the residual says how far
-/// the linear solve need go.
+/// Start of a Newton iteration: the surfaces may have slid out of the matrix's pattern, and the residual says
+/// how far the linear solve need go.
 PetscErrorCode StartIteration(SNES snes, PetscInt)
 {
   Problem *problem;
@@ -140,7 +140,8 @@ PetscErrorCode Converged(SNES snes, PetscInt iteration, PetscReal, PetscReal, Pe
   PetscFunctionReturn(0);
 }
 
-/// After a step that TS accepted. TS also calls this once for a step that failed for good: then time stands still.
+/// After a step that TS accepted. TS also calls this once for a step that failed for good: then time stands
+/// still.
 PetscErrorCode PostStep(TS ts)
 {
   Problem *problem;

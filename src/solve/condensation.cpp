@@ -18,7 +18,8 @@ PetscErrorCode Cut(Mat A, IS rows, IS columns, MatHandle &part)
 {
   Mat old = part;
   PetscFunctionBegin;
-  PetscCall(MatCreateSubMatrix(A, rows, columns, old ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX, old ? &old : part.put()));
+  PetscCall(MatCreateSubMatrix(A, rows, columns, old ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX,
+                               old ? &old : part.put()));
   PetscFunctionReturn(0);
 }
 
@@ -27,18 +28,19 @@ PetscErrorCode Multiply(Mat X, Mat Y, MatHandle &product)
 {
   Mat old = product;
   PetscFunctionBegin;
-  PetscCall(MatMatMult(X, Y, old ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX, PETSC_DEFAULT, old ? &old : product.put()));
+  PetscCall(MatMatMult(X, Y, old ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+                       old ? &old : product.put()));
   PetscFunctionReturn(0);
 }
 
-/// A matrix of so many own rows and columns with room for `per_row` entries, on this rank and off it. MatMatMult may
-/// leave fewer than that.
-PetscErrorCode CreatePart(MPI_Comm comm, PetscInt rows, PetscInt columns, const std::vector<PetscInt> &per_row,
-                          MatHandle &B)
+/// A matrix of so many own rows and columns with room for `per_row` entries, on this rank and off it.
+/// MatMatMult may leave fewer than that.
+PetscErrorCode CreatePart(MPI_Comm comm, PetscInt rows, PetscInt columns,
+                          const std::vector<PetscInt> &per_row, MatHandle &B)
 {
   PetscFunctionBegin;
-  PetscCall(MatCreateAIJ(comm, rows, columns, PETSC_DETERMINE, PETSC_DETERMINE, 0, per_row.data(), 0, per_row.data(),
-                         B.put()));
+  PetscCall(MatCreateAIJ(comm, rows, columns, PETSC_DETERMINE, PETSC_DETERMINE, 0, per_row.data(), 0,
+                         per_row.data(), B.put()));
   PetscCall(MatSetOption(B, MAT_NO_OFF_PROC_ENTRIES, PETSC_TRUE));
   PetscCall(MatSetOption(B, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
   PetscFunctionReturn(0);
@@ -53,7 +55,8 @@ PetscErrorCode Assemble(Mat B)
 }
 
 template <class Block>
-PetscErrorCode SetBlock(Mat B, PetscInt row, PetscInt column, const Block &values, InsertMode mode = INSERT_VALUES)
+PetscErrorCode SetBlock(Mat B, PetscInt row, PetscInt column, const Block &values,
+                        InsertMode mode = INSERT_VALUES)
 {
   const PetscInt rows[] = {row, row + 1, row + 2}, columns[] = {column, column + 1, column + 2};
   PetscFunctionBegin;
@@ -88,7 +91,8 @@ PetscErrorCode Condensation::List()
     if (nodes[a].whole()) slave_at.emplace(columns.reduced(nodes[a].slave), a);
   PetscCall(MatGetOwnershipRange(A, &first, &last));
   const auto create = [comm](const std::vector<PetscInt> &list, IsHandle &is) {
-    return ISCreateGeneral(comm, static_cast<PetscInt>(list.size()), list.data(), PETSC_COPY_VALUES, is.put());
+    return ISCreateGeneral(comm, static_cast<PetscInt>(list.size()), list.data(), PETSC_COPY_VALUES,
+                           is.put());
   };
   PetscCall(create(unknowns->displacement, parts.u));
   PetscCall(create(s, parts.s));
@@ -105,7 +109,8 @@ PetscErrorCode Condensation::BuildRight()
   if (!static_cast<Mat>(parts.P)) {
     std::vector<PetscInt> per_row;
     for (const InterfaceNode &node : nodes)
-      for (int k = 0; k < 3 && node.whole(); ++k) per_row.push_back(3 + static_cast<PetscInt>(node.master.size()));
+      for (int k = 0; k < 3 && node.whole(); ++k)
+        per_row.push_back(3 + static_cast<PetscInt>(node.master.size()));
     PetscCall(CreatePart(comm_of(A), static_cast<PetscInt>(per_row.size()),
                          static_cast<PetscInt>(unknowns->displacement.size()), per_row, parts.P));
   }
@@ -118,8 +123,8 @@ PetscErrorCode Condensation::BuildRight()
     std::vector<PetscInt> masters;
     for (PetscInt column : node.master) masters.push_back(columns.reduced(column));
     const PetscInt rows[] = {row, row + 1, row + 2};
-    PetscCall(
-        MatSetValues(parts.P, 3, rows, static_cast<PetscInt>(masters.size()), masters.data(), W.data(), INSERT_VALUES));
+    PetscCall(MatSetValues(parts.P, 3, rows, static_cast<PetscInt>(masters.size()), masters.data(), W.data(),
+                           INSERT_VALUES));
     row += 3;
   }
   PetscCall(Assemble(parts.P));
@@ -135,8 +140,8 @@ PetscErrorCode Condensation::Eliminate()
     PetscInt interface_rows;
     PetscCall(ISGetLocalSize(parts.i, &interface_rows));
     const std::vector<PetscInt> per_row(3 * nodes.size(), 3);
-    PetscCall(
-        CreatePart(comm_of(A), static_cast<PetscInt>(per_row.size()), interface_rows, per_row, parts.minus_D_inverse));
+    PetscCall(CreatePart(comm_of(A), static_cast<PetscInt>(per_row.size()), interface_rows, per_row,
+                         parts.minus_D_inverse));
   }
   PetscCall(MatGetOwnershipRange(parts.minus_D_inverse, &row, nullptr));
   PetscCall(MatGetOwnershipRangeColumn(parts.minus_D_inverse, &column, nullptr));
@@ -221,7 +226,8 @@ PetscErrorCode Condensation::AppendOwn(PetscInt row, SparseRow &entries)
   PetscFunctionBegin;
   PetscCall(MatGetRow(A, row, &size, &column, &value));
   const std::vector<PetscInt> &multipliers = columns.multipliers;
-  auto next = size == 0 ? multipliers.end() : std::lower_bound(multipliers.begin(), multipliers.end(), *column - 2);
+  auto next =
+      size == 0 ? multipliers.end() : std::lower_bound(multipliers.begin(), multipliers.end(), *column - 2);
   for (PetscInt k = 0; k < size; ++k) { // rising columns
     while (next != multipliers.end() && *next + 3 <= column[k]) ++next;
     if (next != multipliers.end() && *next <= column[k]) continue;
@@ -231,8 +237,8 @@ PetscErrorCode Condensation::AppendOwn(PetscInt row, SparseRow &entries)
   PetscFunctionReturn(0);
 }
 
-/// Of row k of this rank's part of S what is not a product: A_uu and what holds still the directions that nothing acts
-/// on.
+/// Of row k of this rank's part of S what is not a product: A_uu and what holds still the directions that
+/// nothing acts on.
 PetscErrorCode Condensation::OwnRow(std::size_t k, SparseRow &entries)
 {
   const PetscInt row = first_reduced + static_cast<PetscInt>(k);
@@ -241,7 +247,8 @@ PetscErrorCode Condensation::OwnRow(std::size_t k, SparseRow &entries)
   PetscCall(AppendOwn(unknowns->displacement[k], entries));
   if (const auto next = slave_at.upper_bound(row); next != slave_at.begin()) {
     const auto &[start, a] = *std::prev(next);
-    for (int j = 0; j < 3 && row - start < 3; ++j) entries.emplace_back(start + j, nodes[a].idle(row - start, j));
+    for (int j = 0; j < 3 && row - start < 3; ++j)
+      entries.emplace_back(start + j, nodes[a].idle(row - start, j));
   }
   PetscFunctionReturn(0);
 }
@@ -309,8 +316,8 @@ PetscErrorCode Condensation::AddOwnRows()
       column.push_back(c);
       value.push_back(v);
     }
-    PetscCall(
-        MatSetValues(parts.S, 1, &row, static_cast<PetscInt>(column.size()), column.data(), value.data(), ADD_VALUES));
+    PetscCall(MatSetValues(parts.S, 1, &row, static_cast<PetscInt>(column.size()), column.data(),
+                           value.data(), ADD_VALUES));
   }
   PetscFunctionReturn(0);
 }
@@ -344,8 +351,9 @@ PetscErrorCode Condensation::Reduce()
   const struct {
     Mat left, right;
     MatHandle &product;
-  } products[] = {
-      {parts.L, parts.A_iu, parts.LA_iu}, {parts.A_us, parts.P, parts.A_usP}, {parts.LA_is, parts.P, parts.LA_isP}};
+  } products[] = {{parts.L, parts.A_iu, parts.LA_iu},
+                  {parts.A_us, parts.P, parts.A_usP},
+                  {parts.LA_is, parts.P, parts.LA_isP}};
   if (!static_cast<Mat>(parts.S)) {
     for (const auto &[left, right, product] : products) PetscCall(Multiply(left, right, product));
     PetscCall(MatCreateVecs(parts.A_is, parts.of_slaves.put(), parts.of_interface.put()));

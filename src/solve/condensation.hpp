@@ -1,32 +1,38 @@
-/// The contact Jacobian without its multipliers and without the slave displacements that contact conditions prescribe
-/// (THEORY 3.8).
+/// The contact Jacobian without its multipliers and without the slave displacements that contact conditions
+/// prescribe (THEORY 3.8).
 ///
-/// Rows and columns of the Jacobian A in blocks: r displacements of all nodes that carry no multiplier, s displacements
-/// of the slave nodes, l their multipliers. Node by node, three of each,
+/// Rows and columns of the Jacobian A in blocks: r displacements of all nodes that carry no multiplier, s
+/// displacements of the slave nodes, l their multipliers. Node by node, three of each,
 ///
 ///     forces      F_r:  K_rr u_r + K_rs u_s + G l  = f_r
-///                 F_s:  K_sr u_r + K_ss u_s + D l  = f_s       D block diagonal, since the multiplier's basis is dual
-///     conditions  C:    B u_r    + H u_s    + Z l  = f_C       H, Z block diagonal but for the turning of normals
+///                 F_s:  K_sr u_r + K_ss u_s + D l  = f_s       D block diagonal, since the multiplier's
+///                 basis is dual
+///     conditions  C:    B u_r    + H u_s    + Z l  = f_C       H, Z block diagonal but for the turning of
+///     normals
 ///
 /// 1. F_r - G D^-1 F_s is free of l.
-/// 2. The rows of [Z kappa, H] of a node, kappa = K_aa/D, made orthonormal, and the singular values of the part with Z
-///    say which directions are held (closed, sticking: Z = 0 there) and which are free. A free direction keeps its
-///    force row, its multiplier replaced by the condition; a held one gives its displacement, u_s = X u_f + W u_r +
-///    w(f_C).
-/// 3. S = (E + L) A (E' + P) with E and E' = E^T what takes displacements from all unknowns. L, P have entries for the
+/// 2. The rows of [Z kappa, H] of a node, kappa = K_aa/D, made orthonormal, and the singular values of the
+/// part with Z
+///    say which directions are held (closed, sticking: Z = 0 there) and which are free. A free direction
+///    keeps its force row, its multiplier replaced by the condition; a held one gives its displacement, u_s =
+///    X u_f + W u_r + w(f_C).
+/// 3. S = (E + L) A (E' + P) with E and E' = E^T what takes displacements from all unknowns. L, P have
+/// entries for the
 ///    interface only: with u all displacements and i the equations F_s, C of the interface,
 ///
 ///        S = A_uu + L A_iu + (A_us + L A_is) P        (3.15)
 ///
-///    so that nothing the size of A is made beside S. Held directions of slave nodes remain as unknowns that nothing
-///    acts on, so that every node has three.
+///    so that nothing the size of A is made beside S. Held directions of slave nodes remain as unknowns that
+///    nothing acts on, so that every node has three.
 ///
-/// Eliminating multipliers alone (1) leaves a spectrum on which smoothers fail; with 2 it is that of an elastic body.
-/// What is left out, H between neighbours, is small of the order of gaps: S is for preconditioning.
+/// Eliminating multipliers alone (1) leaves a spectrum on which smoothers fail; with 2 it is that of an
+/// elastic body. What is left out, H between neighbours, is small of the order of gaps: S is for
+/// preconditioning.
 ///
-/// All patterns follow from that of A, whatever the values: S, and what inner solvers have derived from it, lasts as
-/// long as A's pattern. (With entries only where nodes have met S is smaller, but while surfaces move each Newton
-/// iteration makes new ones meet: multigrid was set up anew each time, a fifth of the time at 1.15 million unknowns.)
+/// All patterns follow from that of A, whatever the values: S, and what inner solvers have derived from it,
+/// lasts as long as A's pattern. (With entries only where nodes have met S is smaller, but while surfaces
+/// move each Newton iteration makes new ones meet: multigrid was set up anew each time, a fifth of the time
+/// at 1.15 million unknowns.)
 #pragma once
 
 #include "solve/interface_node.hpp"
@@ -42,8 +48,8 @@ namespace tribogel
 class Condensation
 {
 public:
-  /// Whether reduced() will be another matrix than before (`anew`), or the same one with new values; whoever holds the
-  /// old one lets go before Reduce. Collective.
+  /// Whether reduced() will be another matrix than before (`anew`), or the same one with new values; whoever
+  /// holds the old one lets go before Reduce. Collective.
   PetscErrorCode Read(Mat A, const std::shared_ptr<const ContactUnknowns> &unknowns, bool &anew);
 
   /// Computes reduced(). Collective.
@@ -78,8 +84,8 @@ private:
   std::map<PetscInt, std::size_t> slave_at; ///< whole nodes by the first of their rows of S
   PetscInt first = 0, first_reduced = 0;    ///< own rows of A, of S
 
-  /// What lasts as long as the pattern of A. Rows and columns: u displacements, s slaves' displacements, l multipliers,
-  /// i for each node its three force rows (unless prescribed) and its three conditions.
+  /// What lasts as long as the pattern of A. Rows and columns: u displacements, s slaves' displacements, l
+  /// multipliers, i for each node its three force rows (unless prescribed) and its three conditions.
   struct {
     IsHandle u, s, l, i;
     MatHandle A_us, A_iu, A_is, A_ul;

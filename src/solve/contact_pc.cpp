@@ -24,9 +24,9 @@ ContactPc &data_of(PC pc)
   return *static_cast<ContactPc *>(pc->data);
 }
 
-/// Fields of order 2 go to fields of order 1 on the same cells first, and these to a multigrid that knows nothing of
-/// cells. Smoothed aggregation alone takes the many small entries of order 2 for a mesh of its own: two_cylinders.opts,
-/// 37,707 unknowns: 55 iterations to 1e-5.
+/// Fields of order 2 go to fields of order 1 on the same cells first, and these to a multigrid that knows
+/// nothing of cells. Smoothed aggregation alone takes the many small entries of order 2 for a mesh of its
+/// own: two_cylinders.opts, 37,707 unknowns: 55 iterations to 1e-5.
 PetscErrorCode BeginWithVertices(PC method, const ContactUnknowns &unknowns)
 {
   KSP coarse, smoother;
@@ -47,8 +47,8 @@ PetscErrorCode BeginWithVertices(PC method, const ContactUnknowns &unknowns)
   PetscFunctionReturn(0);
 }
 
-/// A new inner solver for a new matrix: PETSc 3.18's multigrid, once set up, takes no coarse levels of other sizes, not
-/// even after a reset.
+/// A new inner solver for a new matrix: PETSc 3.18's multigrid, once set up, takes no coarse levels of other
+/// sizes, not even after a reset.
 PetscErrorCode CreateInner(PC pc, const ContactUnknowns &unknowns)
 {
   const KspHandle &inner = data_of(pc).inner;
@@ -85,8 +85,9 @@ PetscErrorCode UpdateVertices(PC pc, const ContactUnknowns &unknowns)
   if (!multigrid || !static_cast<Mat>(unknowns.from_vertices)) PetscFunctionReturn(0);
   Mat old = data.vertices;
   const bool anew = !old;
-  PetscCall(MatPtAP(data.condensation.reduced(), unknowns.from_vertices, anew ? MAT_INITIAL_MATRIX : MAT_REUSE_MATRIX,
-                    PETSC_DEFAULT, anew ? data.vertices.put() : &old));
+  PetscCall(MatPtAP(data.condensation.reduced(), unknowns.from_vertices,
+                    anew ? MAT_INITIAL_MATRIX : MAT_REUSE_MATRIX, PETSC_DEFAULT,
+                    anew ? data.vertices.put() : &old));
   if (anew) {
     MatNullSpace rigid;
     PetscCall(MatNullSpaceCreateRigidBody(unknowns.vertex_place, &rigid));
@@ -109,8 +110,8 @@ PetscErrorCode CountLevels(PC method, PetscInt &levels)
   PetscFunctionReturn(0);
 }
 
-/// PETSc smooths with two Chebyshev steps. Nearly incompressible gels gain by more: with K/G = 144 three take 26 outer
-/// iterations a Newton iteration where two take 36, in the same time and with fewer vectors.
+/// PETSc smooths with two Chebyshev steps. Nearly incompressible gels gain by more: with K/G = 144 three take
+/// 26 outer iterations a Newton iteration where two take 36, in the same time and with fewer vectors.
 PetscErrorCode SmoothMore(PC method)
 {
   constexpr PetscInt chebyshev_steps = 3;
@@ -126,10 +127,11 @@ PetscErrorCode SmoothMore(PC method)
   PetscFunctionReturn(0);
 }
 
-/// Products with the levels' matrices row by row. PETSc 3.18's default, rows of the same pattern at a time ("inodes"),
-/// fetches the next rows past the caches that would hold them: the paper's scene, K/G = 144, spends 10 s in products
-/// for 6 (18,400 unknowns, order 1), 42 for 23 (9,771 unknowns, order 2). Not where PETSc factorises such rows:
-/// on the coarsest level, and where options put another method than Jacobi's into the smoothers.
+/// Products with the levels' matrices row by row. PETSc 3.18's default, rows of the same pattern at a time
+/// ("inodes"), fetches the next rows past the caches that would hold them: the paper's scene, K/G = 144,
+/// spends 10 s in products for 6 (18,400 unknowns, order 1), 42 for 23 (9,771 unknowns, order 2). Not where
+/// PETSc factorises such rows: on the coarsest level, and where options put another method than Jacobi's into
+/// the smoothers.
 PetscErrorCode MultiplyRowByRow(PC method)
 {
   PetscInt levels;
@@ -161,8 +163,8 @@ PetscErrorCode SetUp(PC pc)
   void *shared;
   bool anew;
   PetscFunctionBegin;
-  PetscCall(
-      PetscObjectQuery(reinterpret_cast<PetscObject>(pc->pmat), attached, reinterpret_cast<PetscObject *>(&container)));
+  PetscCall(PetscObjectQuery(reinterpret_cast<PetscObject>(pc->pmat), attached,
+                             reinterpret_cast<PetscObject *>(&container)));
   PetscCheck(container, PetscObjectComm(reinterpret_cast<PetscObject>(pc)), PETSC_ERR_USER_INPUT,
              "only for -model solid");
   PetscCall(PetscContainerGetPointer(container, &shared));
@@ -260,7 +262,8 @@ PetscErrorCode AttachContactUnknowns(Mat A, const std::shared_ptr<const ContactU
   PetscCall(PetscContainerCreate(PetscObjectComm(reinterpret_cast<PetscObject>(A)), &container));
   PetscCall(PetscContainerSetPointer(container, std::make_unique<Shared>(unknowns).release()));
   PetscCall(PetscContainerSetUserDestroy(container, Forget));
-  PetscCall(PetscObjectCompose(reinterpret_cast<PetscObject>(A), attached, reinterpret_cast<PetscObject>(container)));
+  PetscCall(PetscObjectCompose(reinterpret_cast<PetscObject>(A), attached,
+                               reinterpret_cast<PetscObject>(container)));
   PetscCall(PetscContainerDestroy(&container));
   PetscFunctionReturn(0);
 }

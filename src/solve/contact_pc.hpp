@@ -1,6 +1,6 @@
-/// The preconditioner `-pc_type contact`: condensation of multipliers and held slave displacements (condensation.hpp),
-/// and an inner solver with the prefix `condensed_` for what is left, one application of a multigrid unless options say
-/// otherwise (`-condensed_pc_type gamg`, `hypre`, `lu`).
+/// The preconditioner `-pc_type contact`: condensation of multipliers and held slave displacements
+/// (condensation.hpp), and an inner solver with the prefix `condensed_` for what is left, one application of
+/// a multigrid unless options say otherwise (`-condensed_pc_type gamg`, `hypre`, `lu`).
 #pragma once
 
 #include "solve/condensation.hpp"

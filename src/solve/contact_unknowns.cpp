@@ -1,5 +1,5 @@
-/// What the contact preconditioner asks for: which unknowns are what, and how fields of order 2 follow from their
-/// values at the cells' vertices.
+/// What the contact preconditioner asks for: which unknowns are what, and how fields of order 2 follow from
+/// their values at the cells' vertices.
 #include "solve/problem.hpp"
 
 #include <algorithm>
@@ -74,7 +74,8 @@ PetscErrorCode Problem::ListContactUnknowns()
   PetscFunctionReturn(0);
 }
 
-/// A field of order 1 on the same cells, as one of order 2: at edges, faces and centres the mean of the vertices.
+/// A field of order 1 on the same cells, as one of order 2: at edges, faces and centres the mean of the
+/// vertices.
 PetscErrorCode Problem::InterpolateFromVertices(const PetscInt *to_global, ContactUnknowns &list)
 {
   VecHandle number, local;
@@ -105,21 +106,22 @@ PetscErrorCode Problem::InterpolateFromVertices(const PetscInt *to_global, Conta
   PetscCall(DMGlobalToLocal(mesh.dm, number, INSERT_VALUES, local));
 
   const auto own_rows = static_cast<PetscInt>(list.displacement.size());
-  PetscCall(MatCreateAIJ(comm, own_rows, static_cast<PetscInt>(rows.size()), PETSC_DETERMINE, PETSC_DETERMINE, 8,
-                         nullptr, 8, nullptr, list.from_vertices.put()));
+  PetscCall(MatCreateAIJ(comm, own_rows, static_cast<PetscInt>(rows.size()), PETSC_DETERMINE, PETSC_DETERMINE,
+                         8, nullptr, 8, nullptr, list.from_vertices.put()));
   PetscCall(VecGetArrayRead(local, &column));
   for (const MeshCell &cell : mesh.cells)
     for (int a = 0; a < 27; ++a) {
       const Node &node = mesh.nodes[cell.node[a]];
       const std::vector<int> vertices = vertices_of(a);
       for (int i = 0; i < 3 && node.owned && !node.prescribed; ++i) {
-        const auto at =
-            std::lower_bound(list.displacement.begin(), list.displacement.end(), to_global[node.displacement + i]);
+        const auto at = std::lower_bound(list.displacement.begin(), list.displacement.end(),
+                                         to_global[node.displacement + i]);
         const PetscInt row = first_row + static_cast<PetscInt>(at - list.displacement.begin());
         for (int v : vertices) {
           const Node &end = mesh.nodes[cell.node[v]];
           if (!end.prescribed)
-            PetscCall(MatSetValue(list.from_vertices, row, static_cast<PetscInt>(column[end.displacement + i]),
+            PetscCall(MatSetValue(list.from_vertices, row,
+                                  static_cast<PetscInt>(column[end.displacement + i]),
                                   1.0 / static_cast<double>(vertices.size()), INSERT_VALUES));
         }
       }

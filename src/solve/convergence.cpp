@@ -1,5 +1,6 @@
-/// When is a residual small? Each group of rows is held against the forces that meet in it, and against the round-off
-/// that these forces carry: no dimension enters, and a body without load (no force to be relative to) converges too.
+/// When is a residual small? Each group of rows is held against the forces that meet in it, and against the
+/// round-off that these forces carry: no dimension enters, and a body without load (no force to be relative
+/// to) converges too.
 #include "solve/problem.hpp"
 
 #include <algorithm>
@@ -17,8 +18,8 @@ constexpr double round_off_allowance = 16;
 
 } // namespace
 
-/// Forces that meet the convergence test of a body without load leave N, T and the strains that uncertain. What the
-/// error estimates find below that is no error of a step.
+/// Forces that meet the convergence test of a body without load leave N, T and the strains that uncertain.
+/// What the error estimates find below that is no error of a step.
 PetscErrorCode Problem::MeasureRoundOff()
 {
   const PetscScalar *floors;
@@ -71,8 +72,8 @@ PetscErrorCode Problem::LocateWorst(const double *f)
   PetscFunctionReturn(0);
 }
 
-/// Round-off is an excuse for what an iteration has left, not for making none: the start of a solve may be far off
-/// and its residual below the floor, which allows for all that may be lost.
+/// Round-off is an excuse for what an iteration has left, not for making none: the start of a solve may be
+/// far off and its residual below the floor, which allows for all that may be lost.
 PetscErrorCode Problem::JudgeResidual(Vec F, bool has_iterated, bool &converged)
 {
   const PetscScalar *f, *sizes, *floors;

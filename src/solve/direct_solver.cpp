@@ -10,8 +10,8 @@ constexpr PetscInt workspace_reserve = 14; ///< MUMPS's ICNTL of that name [%]
 
 constexpr PetscInt most_with_old = 30; ///< iterations of a solve; then factors are renewed within it
 
-/// Forgets a factorisation that failed. PETSc 3.18 does not factorise again after MUMPS has reported an error once: it
-/// returns the error of old, whatever the matrix has become.
+/// Forgets a factorisation that failed. PETSc 3.18 does not factorise again after MUMPS has reported an error
+/// once: it returns the error of old, whatever the matrix has become.
 PetscErrorCode ForgetFactor(PC pc)
 {
   Mat A, P;
@@ -26,9 +26,9 @@ PetscErrorCode ForgetFactor(PC pc)
 
 } // namespace
 
-/// Contact conditions delay pivots, and MUMPS can run out of the workspace that its analysis foresaw (on 4 ranks 33 of
-/// 830 pivots were delayed and its own reserve, 20 %, did not do). Shorter steps do not cure that; a larger reserve
-/// does.
+/// Contact conditions delay pivots, and MUMPS can run out of the workspace that its analysis foresaw (on 4
+/// ranks 33 of 830 pivots were delayed and its own reserve, 20 %, did not do). Shorter steps do not cure
+/// that; a larger reserve does.
 PetscErrorCode DirectSolver::Factorise(KSP ksp)
 {
   constexpr int most_doublings = 10;
@@ -58,8 +58,8 @@ PetscErrorCode DirectSolver::Factorise(KSP ksp)
   }
 }
 
-/// Iterations grow with the factors' age. The mean cost of a solve, factorisation included, is least where the next
-/// solve would cost more than that mean.
+/// Iterations grow with the factors' age. The mean cost of a solve, factorisation included, is least where
+/// the next solve would cost more than that mean.
 bool DirectSolver::pay() const
 {
   return since.solves == 0 || since.last * since.solves <= cost + since.iterations;

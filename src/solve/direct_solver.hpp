@@ -7,13 +7,13 @@ namespace tribogel
 {
 
 /// With `-ksp_type preonly` every new matrix is factorised. With `fgmres` the factors of an old one are the
-/// preconditioner for as long as that pays: between two Newton iterations, and the stages of a step, a matrix changes
-/// little but for what begins and ceases to be held.
+/// preconditioner for as long as that pays: between two Newton iterations, and the stages of a step, a matrix
+/// changes little but for what begins and ceases to be held.
 class DirectSolver
 {
 public:
-  /// `ksp` has its options; its preconditioner is LU or Cholesky's. This must outlive its solves. `cost`: of a
-  /// factorisation, in solves with its factors.
+  /// `ksp` has its options; its preconditioner is LU or Cholesky's. This must outlive its solves. `cost`: of
+  /// a factorisation, in solves with its factors.
   PetscErrorCode HookInto(KSP ksp, PetscInt cost);
 
   /// The next solve has new factors: what a step gives must not depend on what the run did before it.

@@ -40,7 +40,8 @@ PetscErrorCode DescribeLinearFailure(SNES snes, std::string &words)
 
 enum class Region { bonded_rim, contact_edge, contact_face, wall, inside };
 
-/// The nearest part of the body's surface; its edges reach over a quarter of its height, half an element at least.
+/// The nearest part of the body's surface; its edges reach over a quarter of its height, half an element at
+/// least.
 Region region_of(const Scene &scene, const FailurePlace &place)
 {
   const bool solid = scene.model == Model::solid, top = place.body == top_body;
@@ -53,7 +54,8 @@ Region region_of(const Scene &scene, const FailurePlace &place)
   const double upwards = std::clamp(0.5 * element, 0.25 * gel.height, 0.5 * gel.height);
   const bool bonded = std::min(from_plate, scene.has_top ? from_plate : from_face) <= upwards;
   const bool at_contact = scene.has_top && from_face <= upwards;
-  if (from_wall <= across) return bonded ? Region::bonded_rim : at_contact ? Region::contact_edge : Region::wall;
+  if (from_wall <= across)
+    return bonded ? Region::bonded_rim : at_contact ? Region::contact_edge : Region::wall;
   return at_contact ? Region::contact_face : Region::inside;
 }
 
@@ -94,8 +96,8 @@ std::string describe_end(const Scene &scene, const FailurePlace &place, double c
     text.precision(3);
     text << "; the gels are compressed by " << 100 * compression << " % of their height";
   }
-  text
-      << ". What may help: less compression or thicker gels, less friction, longer edges at the rims (-mesh_grading 4)";
+  text << ". What may help: less compression or thicker gels, less friction, longer edges at the rims "
+          "(-mesh_grading 4)";
   const double height = scene.has_top ? std::min(scene.top.height, scene.bottom.height) : scene.bottom.height;
   const double radius = (scene.has_top ? scene.top : scene.bottom).radius;
   if (const double enough = std::ceil(2 * radius / height); scene.mesh.elements_radial < enough)
@@ -110,8 +112,8 @@ PetscErrorCode Problem::Diagnose(SNES snes, StepFailure &failure) const
   PetscCall(SNESGetConvergedReason(snes, &reason));
   std::ostringstream text;
   if (bulk_failure) {
-    failure.kind =
-        bulk_failure.status == PointStatus::inverted ? FailureKind::inverted_element : FailureKind::maxwell_update;
+    failure.kind = bulk_failure.status == PointStatus::inverted ? FailureKind::inverted_element
+                                                                : FailureKind::maxwell_update;
     text << describe(bulk_failure);
     failure.place = {bulk_failure.body, bulk_failure.X, bulk_failure.status == PointStatus::inverted};
   } else if (!contact_failure.empty()) {
@@ -127,9 +129,9 @@ PetscErrorCode Problem::Diagnose(SNES snes, StepFailure &failure) const
     text << "the residual is not a number";
   } else {
     failure.kind = FailureKind::newton;
-    text << "Newton's " << (worst.group >= 0 ? group_names(mesh.dim)[worst.group] : "residual") << " stays at "
-         << worst.ratio << " times its tolerance near " << describe_place(mesh.dim, worst.X) << " of the "
-         << (worst.body == top_body ? "top" : "bottom") << " gel";
+    text << "Newton's " << (worst.group >= 0 ? group_names(mesh.dim)[worst.group] : "residual")
+         << " stays at " << worst.ratio << " times its tolerance near " << describe_place(mesh.dim, worst.X)
+         << " of the " << (worst.body == top_body ? "top" : "bottom") << " gel";
     if (worst.group >= 0) failure.place = {worst.body, worst.X, false};
   }
   failure.words = text.str();

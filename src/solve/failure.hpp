@@ -10,10 +10,17 @@
 namespace tribogel
 {
 
-enum class FailureKind { inverted_element, maxwell_update, contact_search, linear_solver, not_a_number, newton };
+enum class FailureKind {
+  inverted_element,
+  maxwell_update,
+  contact_search,
+  linear_solver,
+  not_a_number,
+  newton
+};
 inline constexpr int failure_kinds = 6;
-inline constexpr const char *failure_names[failure_kinds] = {"inverted_element", "maxwell_update", "contact_search",
-                                                             "linear_solver",    "not_a_number",   "newton"};
+inline constexpr const char *failure_names[failure_kinds] = {
+    "inverted_element", "maxwell_update", "contact_search", "linear_solver", "not_a_number", "newton"};
 
 /// Failed attempts by kind.
 using FailureCounts = std::array<int, failure_kinds>;
@@ -32,8 +39,9 @@ struct StepFailure {
   std::optional<FailurePlace> place = {};
 };
 
-/// What is at that place, as seen by someone who looks at the rheometer, why the computation may end there, and what
-/// may help: sentences. The gels are compressed by `compression` of their height. No words for bodies of a mesh file.
+/// What is at that place, as seen by someone who looks at the rheometer, why the computation may end there,
+/// and what may help: sentences. The gels are compressed by `compression` of their height. No words for
+/// bodies of a mesh file.
 std::string describe_end(const Scene &scene, const FailurePlace &place, double compression);
 
 } // namespace tribogel

@@ -16,14 +16,17 @@ struct FrictionCheck {
   double at_radius = 0; ///< of that node, now [mm]
   double at_speed = 0;  ///< its speed [mm/s]
   double fastest = 0;   ///< sliding speed [mm/s]
-  double growth = 0;    ///< in which a disturbance of the sliding grows e-fold, the longest time; 0: none grows [s]
+  double growth =
+      0; ///< in which a disturbance of the sliding grows e-fold, the longest time; 0: none grows [s]
 };
 
-/// Tangential stiffness of the two gels in series, sheared as a whole: the softest way in which all nodes can slide
-/// [MPa/mm].
+/// Tangential stiffness of the two gels in series, sheared as a whole: the softest way in which all nodes can
+/// slide [MPa/mm].
 double shear_stiffness(const Scene &scene)
 {
-  const auto compliance = [](const Specimen &gel) { return gel.height / gel.material.equilibrium.shear_modulus(); };
+  const auto compliance = [](const Specimen &gel) {
+    return gel.height / gel.material.equilibrium.shear_modulus();
+  };
   return 1 / (compliance(scene.top) + compliance(scene.bottom));
 }
 
@@ -53,8 +56,8 @@ FrictionCheck look(const Scene &scene, const ContactResults &results)
 std::string about_negative_friction(const FrictionCheck &found, double time)
 {
   std::ostringstream text;
-  text << "the friction coefficient is " << found.lowest << " at t = " << time << " s, r = " << found.at_radius
-       << " mm, where the gels slide at " << found.at_speed
+  text << "the friction coefficient is " << found.lowest << " at t = " << time
+       << " s, r = " << found.at_radius << " mm, where the gels slide at " << found.at_speed
        << " mm/s: the law is used beyond the speeds it is good for";
   return text.str();
 }
@@ -70,9 +73,11 @@ std::string about_speed(const FrictionCheck &found, double time, double highest)
 std::string about_instability(const FrictionCheck &found, double time)
 {
   std::ostringstream text;
-  text << "t = " << time << " s: friction falls with the speed where the gels slide: steady sliding is unstable, a "
+  text << "t = " << time
+       << " s: friction falls with the speed where the gels slide: steady sliding is unstable, a "
        << "disturbance grows e-fold in " << found.growth
-       << " s, and steps longer than that do not show it. N and T are those of undisturbed sliding, but such an "
+       << " s, and steps longer than that do not show it. N and T are those of undisturbed sliding, but such "
+          "an "
           "interface sticks and slips for itself";
   return text.str();
 }
@@ -82,8 +87,10 @@ std::string about_weakening(const FrictionCheck &found, double time, double step
   std::ostringstream text;
   text << "t = " << time << " s: friction falls with the speed " << found.growth / step
        << " times faster than the gels' stiffness can hold over a step of " << step
-       << " s: the sliding state is not unique and what follows is one of several. Such an interface sticks and slips "
-          "for itself; a law with a rising branch at the speeds in question, lower rates or a stiffer specimen avoid "
+       << " s: the sliding state is not unique and what follows is one of several. Such an interface sticks "
+          "and slips "
+          "for itself; a law with a rising branch at the speeds in question, lower rates or a stiffer "
+          "specimen avoid "
           "it";
   return text.str();
 }
@@ -91,8 +98,8 @@ std::string about_weakening(const FrictionCheck &found, double time, double step
 std::string about_early_end(int phase, double time, double left)
 {
   std::ostringstream text;
-  text << "phase " << phase + 1 << ": N and T have stopped changing at t = " << time << " s; the other " << left
-       << " s are one step";
+  text << "phase " << phase + 1 << ": N and T have stopped changing at t = " << time << " s; the other "
+       << left << " s are one step";
   return text.str();
 }
 
@@ -135,8 +142,8 @@ PetscErrorCode Problem::CheckFriction()
   PetscFunctionReturn(0);
 }
 
-/// Once N and T would change by less than asked for even if they went on as fast as now, the rest of a phase at
-/// constant approach is one step.
+/// Once N and T would change by less than asked for even if they went on as fast as now, the rest of a phase
+/// at constant approach is one step.
 PetscErrorCode Problem::EndPhaseEarly()
 {
   PetscFunctionBeginUser;

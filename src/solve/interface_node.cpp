@@ -10,8 +10,8 @@ namespace tribogel
 namespace
 {
 
-/// A direction is held where its condition depends on the multiplier this little, as the sine of an angle: what is
-/// called held errs by that part, what is called free is stiffer than the gel by its inverse.
+/// A direction is held where its condition depends on the multiplier this little, as the sine of an angle:
+/// what is called held errs by that part, what is called free is stiffer than the gel by its inverse.
 constexpr double held_below = 0.05;
 
 constexpr double rank_tolerance = 1e-10; ///< of singular values, relative to the largest
@@ -24,12 +24,13 @@ Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd &M)
   const Eigen::VectorXd &s = svd.singularValues();
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(M.cols(), M.rows());
   for (Eigen::Index j = 0; j < s.size(); ++j)
-    if (s[j] > rank_tolerance * s[0]) inverse += svd.matrixV().col(j) * svd.matrixU().col(j).transpose() / s[j];
+    if (s[j] > rank_tolerance * s[0])
+      inverse += svd.matrixV().col(j) * svd.matrixU().col(j).transpose() / s[j];
   return inverse;
 }
 
-/// Projection on the directions that D takes to nothing. Exactly zero if there are none: 1 - D^-1 D would be round-off,
-/// and its pseudo-inverse the inverse of that.
+/// Projection on the directions that D takes to nothing. Exactly zero if there are none: 1 - D^-1 D would be
+/// round-off, and its pseudo-inverse the inverse of that.
 Square null_projection(const Square &D)
 {
   const Eigen::JacobiSVD<Square> svd(D, Eigen::ComputeFullV);

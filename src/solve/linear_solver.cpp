@@ -10,10 +10,11 @@ namespace tribogel
 namespace
 {
 
-/// Unknowns in space up to which a direct solver is the default. CPU seconds with kept factors and with multigrid, one
-/// load of the paper's scene, order 1: 7.7 and 21 at 18,400 unknowns, 20 and 38 at 45,400, 55 and 71 at 81,000, 161 and
-/// 113 at 145,000; order 2: 7.5 and 62 at 15,000, 99 and 217 at 86,000, 194 and 327 at 138,000. Memory is what bounds
-/// the direct solver: 5.0 and 6.5 GB in the last cases, where multigrid takes 1.0 and 2.8.
+/// Unknowns in space up to which a direct solver is the default. CPU seconds with kept factors and with
+/// multigrid, one load of the paper's scene, order 1: 7.7 and 21 at 18,400 unknowns, 20 and 38 at 45,400, 55
+/// and 71 at 81,000, 161 and 113 at 145,000; order 2: 7.5 and 62 at 15,000, 99 and 217 at 86,000, 194 and 327
+/// at 138,000. Memory is what bounds the direct solver: 5.0 and 6.5 GB in the last cases, where multigrid
+/// takes 1.0 and 2.8.
 PetscInt direct_up_to(int order)
 {
   return order == 1 ? 100000 : 150000;
@@ -24,8 +25,8 @@ constexpr double below_newton = 0.1;      ///< how far below Newton's own tolera
 
 constexpr PetscInt gmres_restart = 60, most_iterations = 400;
 
-/// What a factorisation costs, in solves with its factors: 12 in the half plane (12,700 unknowns, order 2), 44 and 83
-/// in space (two_cylinders.opts, order 2, 6,219 and 37,707 unknowns), whence these powers.
+/// What a factorisation costs, in solves with its factors: 12 in the half plane (12,700 unknowns, order 2),
+/// 44 and 83 in space (two_cylinders.opts, order 2, 6,219 and 37,707 unknowns), whence these powers.
 PetscInt factorisation_cost(const Mesh &mesh)
 {
   return static_cast<PetscInt>((mesh.dim == 3 ? 2.4 : 0.5) * std::cbrt(mesh.unknowns));
@@ -33,9 +34,9 @@ PetscInt factorisation_cost(const Mesh &mesh)
 
 } // namespace
 
-/// A direct solver in the half plane and for small bodies, multigrid for larger ones, but not where nodes are held in
-/// some directions only (no rigid motions to coarsen by; a punch with K/G = 1000 and planes of symmetry failed).
-/// Options have the last word.
+/// A direct solver in the half plane and for small bodies, multigrid for larger ones, but not where nodes are
+/// held in some directions only (no rigid motions to coarsen by; a punch with K/G = 1000 and planes of
+/// symmetry failed). Options have the last word.
 PetscErrorCode Problem::SetUpLinearSolver(SNES snes)
 {
   KSP ksp;
@@ -45,7 +46,8 @@ PetscErrorCode Problem::SetUpLinearSolver(SNES snes)
   PetscCall(SNESGetKSP(snes, &ksp));
   PetscCall(KSPGetPC(ksp, &pc));
   const bool whole_nodes = scene.has_top && scene.plate_bond == PlateBond::glued;
-  const bool multigrid = mesh.dim == 3 && whole_nodes && mesh.unknowns > direct_up_to(scene.mesh.element_order);
+  const bool multigrid =
+      mesh.dim == 3 && whole_nodes && mesh.unknowns > direct_up_to(scene.mesh.element_order);
   PetscCall(KSPSetType(ksp, multigrid ? KSPGMRES : mesh.dim == 3 ? KSPFGMRES : KSPPREONLY));
   PetscCall(KSPGMRESSetRestart(ksp, gmres_restart)); // of whichever GMRES
   if (multigrid) {
@@ -62,11 +64,11 @@ PetscErrorCode Problem::SetUpLinearSolver(SNES snes)
 namespace
 {
 
-/// Eisenstat and Walker's second choice [SIAM J. Sci. Comput. 17 (1996) 16], eq. (2.6) with their safeguard (gamma =
-/// 0.9, alpha = golden ratio): the linear residual falls as Newton's has fallen; but not further than is of use to
-/// Newton's test. PETSc's own version does not know where Newton stops, and its last solve goes a decade or two too
-/// far. `fallen`: of Newton's residual in its last iteration; `before`: the tolerance of that; `over`: of the residual
-/// over what Newton's test allows.
+/// Eisenstat and Walker's second choice [SIAM J. Sci. Comput. 17 (1996) 16], eq. (2.6) with their safeguard
+/// (gamma = 0.9, alpha = golden ratio): the linear residual falls as Newton's has fallen; but not further
+/// than is of use to Newton's test. PETSc's own version does not know where Newton stops, and its last solve
+/// goes a decade or two too far. `fallen`: of Newton's residual in its last iteration; `before`: the
+/// tolerance of that; `over`: of the residual over what Newton's test allows.
 double loose_tolerance(double fallen, double before, double over)
 {
   constexpr double gamma = 0.9, alpha = 1.618033988749895, strict = 0.1;
@@ -76,15 +78,16 @@ double loose_tolerance(double fallen, double before, double over)
   return std::min(std::max(tolerance, below_newton / over), largest_tolerance);
 }
 
-/// A hundredth of what Newton's method is going to leave when it converges quadratically: it ends as far below its
-/// tolerance as with exact solves.
+/// A hundredth of what Newton's method is going to leave when it converges quadratically: it ends as far
+/// below its tolerance as with exact solves.
 double strict_tolerance(double fallen)
 {
   constexpr double fraction = 0.01, least = 1e-6;
   return std::clamp(fraction * fallen * fallen, least, fraction);
 }
 
-constexpr double first_strict_tolerance = 1e-4; ///< predictors of short steps leave a single good iteration to Newton
+constexpr double first_strict_tolerance =
+    1e-4; ///< predictors of short steps leave a single good iteration to Newton
 
 } // namespace
 
@@ -110,12 +113,12 @@ PetscErrorCode Problem::ChooseTolerance(SNES snes)
   PetscFunctionReturn(0);
 }
 
-/// When the options have been read. Unless they say otherwise, steady states under multigrid have Eisenstat and
-/// Walker's tolerance. It lets Newton stop barely below its own, which is enough for a steady state. Estimates of the
-/// error of short steps see that as noise (a gel pressed by 0.2 mm: 1118 steps for 12), and so transients have a strict
-/// one. (Where the steps' length is given there is no such estimate: two_cylinders.opts, 37,707 unknowns, took 17
-/// linear iterations a Newton iteration, but 32 of these for three of its four steps, where exact solves need 34 for
-/// all.)
+/// When the options have been read. Unless they say otherwise, steady states under multigrid have Eisenstat
+/// and Walker's tolerance. It lets Newton stop barely below its own, which is enough for a steady state.
+/// Estimates of the error of short steps see that as noise (a gel pressed by 0.2 mm: 1118 steps for 12), and
+/// so transients have a strict one. (Where the steps' length is given there is no such estimate:
+/// two_cylinders.opts, 37,707 unknowns, took 17 linear iterations a Newton iteration, but 32 of these for
+/// three of its four steps, where exact solves need 34 for all.)
 PetscErrorCode Problem::HookLinearSolver(SNES snes)
 {
   KSP ksp;

@@ -1,6 +1,6 @@
-/// What watches a run: called on all ranks after each accepted step, never after a rejected one. An observer may not
-/// change the solution, the schedule or the solver; it may ask the run to stop (Problem::stop_request), or end it when
-/// it cannot do its work (Problem::stop_for), on all ranks alike.
+/// What watches a run: called on all ranks after each accepted step, never after a rejected one. An observer
+/// may not change the solution, the schedule or the solver; it may ask the run to stop
+/// (Problem::stop_request), or end it when it cannot do its work (Problem::stop_for), on all ranks alike.
 #pragma once
 
 #include "solve/failure.hpp"
@@ -24,7 +24,10 @@ public:
   virtual ~Observer() = default;
   virtual PetscErrorCode Start(Problem &problem) = 0; ///< the initial state
   virtual PetscErrorCode Step(Problem &problem, const StepReport &report) = 0;
-  virtual PetscErrorCode Failed(Problem &, const StepFailure &) { return 0; } ///< an attempt; TS cuts the step
+  virtual PetscErrorCode Failed(Problem &, const StepFailure &)
+  {
+    return 0;
+  } ///< an attempt; TS cuts the step
   virtual PetscErrorCode Notice(Problem &, const std::string &) { return 0; } ///< worth telling people
 };
 

@@ -55,10 +55,13 @@ PetscErrorCode Problem::SetFromOptions()
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<TS>(ts)));
   const char *type = scene.time.rule == TimeRule::sdirk2 ? two_stage_ts : TSBEULER;
   PetscCall(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(static_cast<TS>(ts)), type, &agrees));
-  PetscCheck(agrees, comm, PETSC_ERR_USER_INPUT,
-             "-ts_type: the internal variables and the sliding velocity follow -maxwell_integrator; allowed: %s", type);
+  PetscCheck(
+      agrees, comm, PETSC_ERR_USER_INPUT,
+      "-ts_type: the internal variables and the sliding velocity follow -maxwell_integrator; allowed: %s",
+      type);
   PetscCall(PetscOptionsHasName(nullptr, nullptr, "-ts_max_time", &given));
-  PetscCheck(!given, comm, PETSC_ERR_USER_INPUT, "-ts_max_time: the schedule ends the run; use -schedule_end_times");
+  PetscCheck(!given, comm, PETSC_ERR_USER_INPUT,
+             "-ts_max_time: the schedule ends the run; use -schedule_end_times");
   PetscCall(PetscOptionsGetReal(nullptr, nullptr, "-ts_dt", &given_first_step, &given));
   PetscCheck(!given || given_first_step > 0, comm, PETSC_ERR_USER_INPUT,
              "-ts_dt: the first step of a phase must be longer than 0 s");
@@ -122,7 +125,8 @@ PetscErrorCode Problem::SetUpFields()
 
 PetscErrorCode Problem::MeasurePlate()
 {
-  double lowest_highest[2] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  double lowest_highest[2] = {std::numeric_limits<double>::infinity(),
+                              std::numeric_limits<double>::infinity()};
   PetscFunctionBeginUser;
   for (int n : plate_nodes) {
     const double z = mesh.nodes[n].X[mesh.dim - 1];
@@ -154,7 +158,8 @@ PlateFrames Problem::frames(double time, double step) const
   frames.bottom_rotation = scene.bottom_plate_rate * time;
   frames.top_axis = scene.misalignment.offset;
   if (step > 0) frames.step = step;
-  // In space a node near the axis may lie on either side of it, and its velocity turns round: what holds it is stick.
+  // In space a node near the axis may lie on either side of it, and its velocity turns round: what holds it
+  // is stick.
   if (steady() && mesh.dim == 2) frames.step = std::numeric_limits<double>::infinity();
   return frames;
 }
@@ -162,8 +167,8 @@ PlateFrames Problem::frames(double time, double step) const
 namespace
 {
 
-/// Displacement, or its rate, of a node on the top plate that `now` moves, for a body held by the other plate. In the
-/// half plane an angle is an unknown; in 3-D the plate's rotation is (Q - 1) X.
+/// Displacement, or its rate, of a node on the top plate that `now` moves, for a body held by the other
+/// plate. In the half plane an angle is an unknown; in 3-D the plate's rotation is (Q - 1) X.
 std::array<double, 3> driven_displacement(const Phase &now, double time, int dim, double L,
                                           const std::array<double, 3> &X)
 {
@@ -172,7 +177,8 @@ std::array<double, 3> driven_displacement(const Phase &now, double time, int dim
   return {c * X[0] - s * X[1] - X[0], s * X[0] + c * X[1] - X[1], -now.approach(time)};
 }
 
-std::array<double, 3> driven_rate(const Phase &now, double time, int dim, double L, const std::array<double, 3> &X)
+std::array<double, 3> driven_rate(const Phase &now, double time, int dim, double L,
+                                  const std::array<double, 3> &X)
 {
   const double angle = now.rotation(time), c = std::cos(angle), s = std::sin(angle);
   if (dim == 2) return {0, L * now.rate, -now.approach_rate()};
@@ -181,8 +187,8 @@ std::array<double, 3> driven_rate(const Phase &now, double time, int dim, double
 
 } // namespace
 
-/// Unknowns are measured from the body's own plate, so that a bonded node does not move; only a gel that spans both
-/// plates sees the top plate move.
+/// Unknowns are measured from the body's own plate, so that a bonded node does not move; only a gel that
+/// spans both plates sees the top plate move.
 void Problem::SetBoundary(double time, double *U, double *Udot) const
 {
   const double L = scene.twist_length();
@@ -237,7 +243,8 @@ PetscErrorCode Problem::LocalState(Vec U, Vec Udot) const
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Problem::AddResidual(double time, const double *U, const double *Udot, double *F, double *sizes)
+PetscErrorCode Problem::AddResidual(double time, const double *U, const double *Udot, double *F,
+                                    double *sizes)
 {
   PetscFunctionBeginUser;
   PetscCall(PetscLogEventBegin(events.bulk_residual, 0, 0, 0, 0));
@@ -246,11 +253,13 @@ PetscErrorCode Problem::AddResidual(double time, const double *U, const double *
   Wrench reaction = plate_wrench(U, F);
   if (contact) reaction += contact->WallReaction(U);
   plate_loads = {-reaction.force[2], reaction.moment[2]};
-  PetscCall(ShareFailure(PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm))), bulk_failure));
+  PetscCall(
+      ShareFailure(PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm))), bulk_failure));
   contact_failure.clear();
   if (steady()) Udot = nullptr;
   PetscCall(PetscLogEventBegin(events.contact_residual, 0, 0, 0, 0));
-  if (contact) PetscCall(contact->AddResidual(frames(time, solve_length(time)), U, Udot, F, sizes, contact_failure));
+  if (contact)
+    PetscCall(contact->AddResidual(frames(time, solve_length(time)), U, Udot, F, sizes, contact_failure));
   PetscCall(PetscLogEventEnd(events.contact_residual, 0, 0, 0, 0));
   PetscFunctionReturn(0);
 }
@@ -266,14 +275,15 @@ PetscErrorCode Problem::AddJacobian(double time, const double *U, const double *
     Udot = nullptr;
     shift = 0;
   }
-  if (contact) PetscCall(contact->AddJacobian(frames(time, solve_length(time)), U, Udot, shift, A, contact_failure));
+  if (contact)
+    PetscCall(contact->AddJacobian(frames(time, solve_length(time)), U, Udot, shift, A, contact_failure));
   PetscCall(PetscLogEventEnd(events.contact_jacobian, 0, 0, 0, 0));
   PetscFunctionReturn(0);
 }
 
-/// The matrix has the pattern of the bulk and of all pairs of facets that may meet soon. PETSc 3.18 inserts a new
-/// nonzero by reallocating, so the pattern is complete before the first value. An old matrix, and what the linear
-/// solver made of it, go first: two would not fit where one does.
+/// The matrix has the pattern of the bulk and of all pairs of facets that may meet soon. PETSc 3.18 inserts a
+/// new nonzero by reallocating, so the pattern is complete before the first value. An old matrix, and what
+/// the linear solver made of it, go first: two would not fit where one does.
 PetscErrorCode Problem::BuildMatrix()
 {
   Mat counter, A;
@@ -295,7 +305,8 @@ PetscErrorCode Problem::BuildMatrix()
   PetscCall(SNESGetKSP(snes, &ksp));
   PetscCall(KSPReset(ksp));
 #ifdef __GLIBC__
-  // Open MPI tells malloc to keep what is freed, and the old factors would lie beside the new: 2.09 GB for 1.43.
+  // Open MPI tells malloc to keep what is freed, and the old factors would lie beside the new: 2.09 GB
+  // for 1.43.
   malloc_trim(0);
 #endif
   *jacobian.put() = A;

@@ -1,5 +1,5 @@
-/// A scene made ready to be solved: mesh, bulk, contact, state, TS. Built from a Scene alone, without command line or
-/// globals, so that a program can hold several.
+/// A scene made ready to be solved: mesh, bulk, contact, state, TS. Built from a Scene alone, without command
+/// line or globals, so that a program can hold several.
 #pragma once
 
 #include "bulk/bulk.hpp"
@@ -23,15 +23,15 @@
 namespace tribogel
 {
 
-/// Residuals are judged by group: three displacement and three traction components, each against the sum of the
-/// absolute forces that meet in it.
+/// Residuals are judged by group: three displacement and three traction components, each against the sum of
+/// the absolute forces that meet in it.
 inline constexpr int residual_groups = 6;
 using GroupNames = std::array<const char *, residual_groups>;
 inline constexpr GroupNames group_names_of[2] = {
     {"radial force", "circumferential force", "axial force", "radial contact condition",
      "circumferential contact condition", "axial contact condition"},
-    {"force along x", "force along y", "force along z", "contact condition along x", "contact condition along y",
-     "contact condition along z"}};
+    {"force along x", "force along y", "force along z", "contact condition along x",
+     "contact condition along y", "contact condition along z"}};
 constexpr const GroupNames &group_names(int dim)
 {
   return group_names_of[dim - 2];
@@ -69,8 +69,8 @@ class Problem
 public:
   PetscErrorCode SetUp(MPI_Comm comm, const Scene &scene);
 
-  /// The same with bodies of another outline than the scene's cylinders, whose radii and heights then only scale (the
-  /// twist's length, coefficients of friction).
+  /// The same with bodies of another outline than the scene's cylinders, whose radii and heights then only
+  /// scale (the twist's length, coefficients of friction).
   PetscErrorCode SetUp(MPI_Comm comm, const Scene &scene, SerialMesh serial);
   PetscErrorCode SetUp(MPI_Comm comm, const Scene &given, const std::vector<MeridianBlock> &blocks)
   {
@@ -82,13 +82,14 @@ public:
   /// One linear solve with a zero right-hand side: makes PETSc's inner solvers read their options.
   PetscErrorCode ProbeSolver();
 
-  /// Whether the gels can stand on one another before anything deforms: `objection`, empty if nothing speaks against
-  /// it, is why not; `doubts` gets what else is odd, also at angles that the schedule leads to. Collective.
+  /// Whether the gels can stand on one another before anything deforms: `objection`, empty if nothing speaks
+  /// against it, is why not; `doubts` gets what else is odd, also at angles that the schedule leads to.
+  /// Collective.
   PetscErrorCode JudgeStart(std::string &objection, std::vector<std::string> &doubts);
 
-  /// Run the schedule from the state on, which may be in the midst of a phase. `completed` is false when a step fails
-  /// at the smallest size or an observer cannot do its work, `why` then says where and why; or when an observer has
-  /// asked for a stop, `why` is its request.
+  /// Run the schedule from the state on, which may be in the midst of a phase. `completed` is false when a
+  /// step fails at the smallest size or an observer cannot do its work, `why` then says where and why; or
+  /// when an observer has asked for a stop, `why` is its request.
   PetscErrorCode Run(const std::vector<Observer *> &observers, bool &completed, std::string &why);
 
   /// Solution and rate in local vectors, prescribed values included. Collective.
@@ -104,7 +105,8 @@ public:
   /// What the top plate does to the gel bonded to it, by this rank's part of its nodal forces `F`.
   Wrench plate_wrench(const double *U, const double *F) const;
 
-  /// Where the top plate's face meets its axis, in the frame of its gel's unknowns: height above its origin [mm].
+  /// Where the top plate's face meets its axis, in the frame of its gel's unknowns: height above its origin
+  /// [mm].
   double plate_height() const;
 
   const Phase &phase() const { return scene.schedule[state.phase]; }
@@ -114,7 +116,10 @@ public:
   /// Length of the backward Euler solve at hand, that ends at `time`, and what it tells the materials.
   double solve_length(double time) const { return stage.index == 0 ? time - state.time : stage.length; }
   StepWeights weights(double time) const;
-  const History &start() const { return stage.index == 0 ? state.history : stage.history; } ///< internal variables
+  const History &start() const
+  {
+    return stage.index == 0 ? state.history : stage.history;
+  } ///< internal variables
 
   Scene scene;
   Mesh mesh;
@@ -147,14 +152,15 @@ public:
   /// To `stop_reason`, once.
   void stop_for(const std::string &reason)
   {
-    if (stop_reason.find(reason) == std::string::npos) stop_reason += (stop_reason.empty() ? "" : "; ") + reason;
+    if (stop_reason.find(reason) == std::string::npos)
+      stop_reason += (stop_reason.empty() ? "" : "; ") + reason;
   }
 
   /// Of the last Newton iteration, by `worst`; infinite outside of a solve and in its first iteration.
   double contraction = std::numeric_limits<double>::infinity();
 
-  /// Whether one more iteration with the matrix of the last one is enough: it leaves about 2 contraction of the
-  /// residual, since a full step's remainder is half of what the matrix changes by along it.
+  /// Whether one more iteration with the matrix of the last one is enough: it leaves about 2 contraction of
+  /// the residual, since a full step's remainder is half of what the matrix changes by along it.
   bool old_matrix_will_do() const
   {
     constexpr double allowance = 10;
@@ -171,12 +177,13 @@ public:
   PetscErrorCode DampStage();              ///< the second is to be solved again
   PetscErrorCode PredictStage(Vec U) const;
   PetscErrorCode AcceptStep(PetscReal time, Vec U);
-  PetscErrorCode EvaluateEnd(PetscReal time, History &next, CellEnergy &energy); ///< of the solve that converged last
+  PetscErrorCode EvaluateEnd(PetscReal time, History &next,
+                             CellEnergy &energy); ///< of the solve that converged last
   PetscErrorCode JudgeResidual(Vec F, bool has_iterated, bool &converged);
   PetscErrorCode FirstStep(PetscReal &step, PetscReal &unresolved) const; ///< of the phase [s]
   PetscErrorCode SumPlateLoads(PlateLoads &loads) const;
   PetscErrorCode Diagnose(SNES snes, StepFailure &failure) const; ///< of a solve that diverged
-  PetscErrorCode CheckFriction();                                 ///< in the accepted state; may set stop_reason
+  PetscErrorCode CheckFriction(); ///< in the accepted state; may set stop_reason
   PetscErrorCode EndPhaseEarly();
   PetscErrorCode TellFailure();                                               ///< the observers
   PetscErrorCode LargestStrain(const History &history, double &strain) const; ///< and so far, all ranks
@@ -209,8 +216,8 @@ private:
     int ended_early = -1; ///< phase
   } told;
 
-  /// How far linear solves go, and at the last one of this Newton solve: norm of the residual, and the relative
-  /// tolerance chosen.
+  /// How far linear solves go, and at the last one of this Newton solve: norm of the residual, and the
+  /// relative tolerance chosen.
   enum class Forcing { given, loose, strict };
   struct {
     Forcing rule = Forcing::given; ///< by options
@@ -232,8 +239,8 @@ private:
 /// An estimate with which TS repeats the length of the step: 0.9, its factor of safety, squared.
 inline constexpr double keeps_the_step = 0.81;
 
-/// An error estimate to eight bits. Its last digits are round-off, which differs between numbers of ranks, and so would
-/// the steps: like this they do not, and a step is at most 1/500 off.
+/// An error estimate to eight bits. Its last digits are round-off, which differs between numbers of ranks,
+/// and so would the steps: like this they do not, and a step is at most 1/500 off.
 double rounded(double estimate);
 
 /// SDIRK2's error estimate for TS (stages.cpp).

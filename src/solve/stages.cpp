@@ -49,9 +49,10 @@ PetscErrorCode Problem::EndStage(int index, Vec U)
   PetscFunctionReturn(0);
 }
 
-/// Where a contact gives way much faster than within a step, T is to level off, and (4.4) throws it past its steady
-/// value: R(z) < 0 in (4.5). Then, and only then, the rate of a T that levels off changes its sign from the first stage
-/// to the second. In steps whose error counts it is the estimate that keeps this below the tolerance.
+/// Where a contact gives way much faster than within a step, T is to level off, and (4.4) throws it past its
+/// steady value: R(z) < 0 in (4.5). Then, and only then, the rate of a T that levels off changes its sign
+/// from the first stage to the second. In steps whose error counts it is the estimate that keeps this below
+/// the tolerance.
 PetscErrorCode Problem::Rings(bool &rings) const
 {
   constexpr double worth_a_solve = 0.1; // of the tolerance
@@ -68,7 +69,8 @@ PetscErrorCode Problem::Rings(bool &rings) const
   PetscCall(SumPlateLoads(loads));
   PetscCall(TSGetTolerances(ts, &fraction, nullptr, nullptr, nullptr));
   PlateLoads largest = state.largest;
-  for (int k = 0; k < 2; ++k) largest[k] = std::max({largest[k], std::abs(stage.loads[k]), std::abs(loads[k])});
+  for (int k = 0; k < 2; ++k)
+    largest[k] = std::max({largest[k], std::abs(stage.loads[k]), std::abs(loads[k])});
   const double first = stage.loads[torque] - state.loads[torque];
   const double second = loads[torque] - state.loads[torque] - sdirk2::reach * first;
   const double tolerated = fraction * load_scales(largest)[torque] + least_loads[torque];
@@ -91,8 +93,8 @@ PetscErrorCode Problem::DampStage()
   PetscFunctionReturn(0);
 }
 
-/// The rate at the end of a step and the mean one of the step give a parabola that goes on in the next, unless that is
-/// much longer. After a jump of the plate's motion nothing is known.
+/// The rate at the end of a step and the mean one of the step give a parabola that goes on in the next,
+/// unless that is much longer. After a jump of the plate's motion nothing is known.
 PetscErrorCode Problem::PredictStage(Vec U) const
 {
   constexpr double gamma = sdirk2::gamma;
@@ -119,8 +121,8 @@ PetscErrorCode Problem::PredictStage(Vec U) const
   PetscFunctionReturn(0);
 }
 
-/// Internal variables and energies where the last solve converged. SNES's solution: TS's U is that to round-off, but
-/// this is where the bulk has been evaluated.
+/// Internal variables and energies where the last solve converged. SNES's solution: TS's U is that to
+/// round-off, but this is where the bulk has been evaluated.
 PetscErrorCode Problem::EvaluateEnd(PetscReal time, History &next, CellEnergy &energy)
 {
   SNES snes;
@@ -165,8 +167,8 @@ PetscErrorCode Problem::SetRates(double step, Vec U)
   PetscFunctionReturn(0);
 }
 
-/// At least what the schedule's largest compression would leave at every point: what is small beside that is not
-/// resolved for its own sake.
+/// At least what the schedule's largest compression would leave at every point: what is small beside that is
+/// not resolved for its own sake.
 PetscErrorCode Problem::LargestStrain(const History &history, double &strain) const
 {
   const double floor = expected_compression();
@@ -197,7 +199,8 @@ PetscErrorCode EvaluateSecondOrderError(TS ts, NormType, PetscInt *order, PetscR
   const Stage &stage = problem->stage;
   if (order) *order = 2;
   PetscCall(problem->SumPlateLoads(loads));
-  for (int k = 0; k < 2; ++k) scale[k] = std::max({state.largest[k], std::abs(stage.loads[k]), std::abs(loads[k])});
+  for (int k = 0; k < 2; ++k)
+    scale[k] = std::max({state.largest[k], std::abs(stage.loads[k]), std::abs(loads[k])});
   scale = problem->load_scales(scale);
   for (int k = 0; k < 2; ++k) {
     const double change = std::abs(loads[k] - state.loads[k] - (stage.loads[k] - state.loads[k]) / gamma);

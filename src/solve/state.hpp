@@ -20,17 +20,20 @@ struct State {
   double step_before = 0; ///< the one before [s]
   double next_step = 0;   ///< that TS will try next, within the phase [s]
   int steps_in_phase = 0;
-  VecHandle U, Udot;     ///< solution and its rate as the residual saw it
-  VecHandle Udot_before; ///< Euler's rule: the rate in the step before; SDIRK2: the mean rate of the last step
-  History history;       ///< internal variables at `time`
-  PlateLoads loads{}, load_rates{}, largest{}; ///< now, in the last step, and their largest absolute values so far
-  double largest_strain = 0; ///< SDIRK2: root of the sum of the squares of C_i^-1 - 1, its largest value so far
-  double stored = 0;         ///< energy in the bulk of this rank's cells [N mm]
-  double dissipated = 0;     ///< by the dashpots since t = 0, this rank's cells [N mm]
+  VecHandle U, Udot; ///< solution and its rate as the residual saw it
+  VecHandle
+      Udot_before; ///< Euler's rule: the rate in the step before; SDIRK2: the mean rate of the last step
+  History history; ///< internal variables at `time`
+  PlateLoads loads{}, load_rates{},
+      largest{}; ///< now, in the last step, and their largest absolute values so far
+  double largest_strain =
+      0;                 ///< SDIRK2: root of the sum of the squares of C_i^-1 - 1, its largest value so far
+  double stored = 0;     ///< energy in the bulk of this rank's cells [N mm]
+  double dissipated = 0; ///< by the dashpots since t = 0, this rank's cells [N mm]
 };
 
-/// Every member once, by name: `visit(name, member)`, or `visit.Sum(name, member)` where the ranks' values add up to
-/// what is meant. A new member is one more line. Collective if the visitor is.
+/// Every member once, by name: `visit(name, member)`, or `visit.Sum(name, member)` where the ranks' values
+/// add up to what is meant. A new member is one more line. Collective if the visitor is.
 template <class Visitor> PetscErrorCode VisitState(State &state, Visitor &visit)
 {
   PetscFunctionBeginUser;

@@ -18,9 +18,10 @@ constexpr double shortest_of_interest = 1.0 / 500;
 
 } // namespace
 
-/// There is no error estimate for the first step of a phase. A relaxation in the time tau has the local error h^2/(2
-/// tau^2):
-/// `-ts_atol` with tau the shortest relaxation time of the gels. Errors of steps up to `unresolved` do not count.
+/// There is no error estimate for the first step of a phase. A relaxation in the time tau has the local error
+/// h^2/(2 tau^2):
+/// `-ts_atol` with tau the shortest relaxation time of the gels. Errors of steps up to `unresolved` do not
+/// count.
 PetscErrorCode Problem::FirstStep(PetscReal &step, PetscReal &unresolved) const
 {
   PetscReal fraction;
@@ -32,7 +33,8 @@ PetscErrorCode Problem::FirstStep(PetscReal &step, PetscReal &unresolved) const
   for (const Specimen *gel : {&scene.bottom, scene.has_top ? &scene.top : &scene.bottom})
     for (const auto &branch : gel->material.branches) tau = std::min(tau, shape_relaxation_time(branch));
   const double constant = scene.time.rule == TimeRule::sdirk2 ? sdirk2::error_constant : 0.5;
-  unresolved = step = std::min(std::max(std::sqrt(fraction / constant) * tau, ShortestStep()), phase().duration());
+  unresolved = step =
+      std::min(std::max(std::sqrt(fraction / constant) * tau, ShortestStep()), phase().duration());
   if (TimeUntilTouch() == phase().duration()) step = phase().duration(); // nothing happens in it
   if (given_first_step > 0) {
     step = std::min(std::max(given_first_step, ShortestStep()), phase().duration());
@@ -49,21 +51,24 @@ PetscReal Problem::ShortestStep() const
   return 16 * std::numeric_limits<double>::epsilon() * phase().end_time;
 }
 
-/// While nothing has been loaded there is nothing to be resolved until the plate has travelled the gap. A little less,
-/// so that the gels are apart then; 0 afterwards.
+/// While nothing has been loaded there is nothing to be resolved until the plate has travelled the gap. A
+/// little less, so that the gels are apart then; 0 afterwards.
 PetscReal Problem::TimeUntilTouch() const
 {
   const Phase &now = phase();
-  const bool alone_and_moves = !scene.has_top && (now.end_approach != 0 || now.rate != scene.bottom_plate_rate);
+  const bool alone_and_moves =
+      !scene.has_top && (now.end_approach != 0 || now.rate != scene.bottom_plate_rate);
   if (alone_and_moves || state.largest[0] > least_loads[0] || state.largest[1] > least_loads[1]) return 0;
   double touch = now.end_time;
   if (scene.has_top && now.end_approach > scene.initial_gap)
-    touch = now.start_time + (scene.initial_gap - now.start_approach) / now.approach_rate() - 2 * ShortestStep();
+    touch =
+        now.start_time + (scene.initial_gap - now.start_approach) / now.approach_rate() - 2 * ShortestStep();
   const double left = touch - std::max(state.time, now.start_time);
   return left > ShortestStep() ? left : 0;
 }
 
-/// No step goes over the first touch, and one that ends there is followed by as short a one as begins a phase.
+/// No step goes over the first touch, and one that ends there is followed by as short a one as begins a
+/// phase.
 PetscErrorCode Problem::StopAtTouch(PetscReal left_before)
 {
   PetscReal step, unresolved;
@@ -79,12 +84,14 @@ PetscErrorCode Problem::StopAtTouch(PetscReal left_before)
   PetscFunctionReturn(0);
 }
 
-/// Loads that turn through the gels come back after a revolution: a step of much of one would not see that they change.
+/// Loads that turn through the gels come back after a revolution: a step of much of one would not see that
+/// they change.
 PetscReal Problem::LongestStep() const
 {
   constexpr double most_of_a_turn = 0.5; // [rad]
   const double rate = std::abs(phase().rate - scene.bottom_plate_rate);
-  return scene.loads_turn() && rate > 0 ? std::min(most_of_a_turn / rate, given_longest_step) : given_longest_step;
+  return scene.loads_turn() && rate > 0 ? std::min(most_of_a_turn / rate, given_longest_step)
+                                        : given_longest_step;
 }
 
 } // namespace tribogel

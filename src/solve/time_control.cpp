@@ -1,5 +1,5 @@
-/// TS over the schedule: one TSSolve per phase, so that each phase's end is hit exactly and the method restarts with a
-/// small step at each jump of the plate's motion.
+/// TS over the schedule: one TSSolve per phase, so that each phase's end is hit exactly and the method
+/// restarts with a small step at each jump of the plate's motion.
 #include "solve/problem.hpp"
 #include "solve/two_stage_ts.hpp"
 
@@ -20,9 +20,9 @@ namespace
 constexpr double smallest_of_first = 1e-4;
 constexpr PetscInt most_rejections = 20; ///< of one step, unless options say otherwise
 
-/// TS's error estimate, of what is looked at: the local error of N and T, from the second difference of their last
-/// three values as TS takes it of U (h^2/2 times the second derivative), over `-ts_atol` times their largest values so
-/// far.
+/// TS's error estimate, of what is looked at: the local error of N and T, from the second difference of their
+/// last three values as TS takes it of U (h^2/2 times the second derivative), over `-ts_atol` times their
+/// largest values so far.
 PetscErrorCode EvaluateError(TS ts, NormType, PetscInt *order, PetscReal *error)
 {
   Problem *problem;
@@ -69,9 +69,9 @@ double Problem::expected_compression() const
   return std::max(0.0, approach - (scene.has_top ? scene.initial_gap : 0)) / height;
 }
 
-/// Never less than what a free bar of the softer gel would bear at the schedule's largest compression: less than bonded
-/// gels bear, of the same order, and known before anything touches. What is only round-off beside the other (the torque
-/// before any rotation) is not tracked.
+/// Never less than what a free bar of the softer gel would bear at the schedule's largest compression: less
+/// than bonded gels bear, of the same order, and known before anything touches. What is only round-off beside
+/// the other (the torque before any rotation) is not tracked.
 PlateLoads Problem::load_scales(const PlateLoads &largest) const
 {
   constexpr double negligible = 1e-8;
@@ -79,7 +79,8 @@ PlateLoads Problem::load_scales(const PlateLoads &largest) const
   if (scene.has_top) modulus = std::min(modulus, scene.top.material.equilibrium.shear_modulus());
   const double radius = scene.has_top ? scene.top.radius : scene.bottom.radius, L = scene.twist_length();
   const double bar = 3 * modulus * std::numbers::pi * radius * radius * expected_compression();
-  return {std::max({largest[0], bar, negligible * largest[1] / L}), std::max(largest[1], negligible * largest[0] * L)};
+  return {std::max({largest[0], bar, negligible * largest[1] / L}),
+          std::max(largest[1], negligible * largest[0] * L)};
 }
 
 PetscErrorCode PreStep(TS ts)
@@ -124,7 +125,8 @@ PetscErrorCode Problem::SetUpTs()
   PetscCall(SNESSetType(snes, SNESNEWTONLS));
   PetscCall(SNESGetLineSearch(snes, &search));
   PetscCall(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
-  PetscCall(SNESSetDivergenceTolerance(snes, -1)); // a change of the active set may raise the residual at first
+  PetscCall(
+      SNESSetDivergenceTolerance(snes, -1)); // a change of the active set may raise the residual at first
   PetscCall(SNESSetTolerances(snes, 0, 1e-7, 0, 25, -1));
   PetscCall(SetUpLinearSolver(snes));
   PetscFunctionReturn(0);
@@ -320,7 +322,8 @@ std::string Problem::Explain(TSConvergedReason reason) const
   else if (reason == TS_DIVERGED_STEP_REJECTED && static_cast<TS>(ts)->max_reject != most_rejections)
     reached("-ts_max_reject");
   else
-    text << "no step from t = " << state.time << " s (phase " << state.phase + 1 << ") succeeds, however small";
+    text << "no step from t = " << state.time << " s (phase " << state.phase + 1
+         << ") succeeds, however small";
   if (!last_failure.words.empty()) text << ": " << last_failure.words;
   text << " (" << TSConvergedReasons[reason] << ")";
   if (last_failure.place) {

@@ -140,7 +140,8 @@ PetscErrorCode Step(TS ts)
     }
     accepted = PETSC_FALSE;
     ++ts->reject;
-    if (!ts->reason && ++rejections > ts->max_reject && ts->max_reject >= 0) ts->reason = TS_DIVERGED_STEP_REJECTED;
+    if (!ts->reason && ++rejections > ts->max_reject && ts->max_reject >= 0)
+      ts->reason = TS_DIVERGED_STEP_REJECTED;
   }
   PetscFunctionReturn(0);
 }

@@ -38,7 +38,8 @@ void silence_hdf5()
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-bool write_array(hid_t file, const std::string &name, hid_t stored, hid_t given, const void *values, hsize_t size)
+bool write_array(hid_t file, const std::string &name, hid_t stored, hid_t given, const void *values,
+                 hsize_t size)
 {
   const Id space(H5Screate_simple(1, &size, nullptr), H5Sclose);
   const Id properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
@@ -59,8 +60,8 @@ bool fill(hid_t file, const std::string &kind, const DataFile &data)
   return good;
 }
 
-/// The file's bytes. HDF5 makes them in memory: one that cannot write to a device is left with an open file, and takes
-/// the program down when that ends.
+/// The file's bytes. HDF5 makes them in memory: one that cannot write to a device is left with an open file,
+/// and takes the program down when that ends.
 bool image_of(const std::string &kind, const DataFile &data, std::string &image)
 {
   constexpr std::size_t growth = 1 << 20; // of the memory, at a time [bytes]
@@ -79,7 +80,8 @@ bool read_array(hid_t set, std::vector<double> *numbers, std::string *text)
 {
   const Id space(H5Dget_space(set), H5Sclose);
   hsize_t size = 0;
-  if (H5Sget_simple_extent_ndims(space) != 1 || H5Sget_simple_extent_dims(space, &size, nullptr) < 0) return false;
+  if (H5Sget_simple_extent_ndims(space) != 1 || H5Sget_simple_extent_dims(space, &size, nullptr) < 0)
+    return false;
   if (numbers) numbers->resize(size);
   if (text) text->resize(size);
   if (size == 0) return true;
@@ -106,11 +108,12 @@ bool read_all(hid_t file, DataFile &data)
   if (H5Gget_info(file, &group) < 0) return false;
   for (hsize_t k = 0; k < group.nlinks; ++k) {
     char name[256];
-    if (H5Lget_name_by_idx(file, ".", H5_INDEX_NAME, H5_ITER_INC, k, name, sizeof name, H5P_DEFAULT) < 0) return false;
+    if (H5Lget_name_by_idx(file, ".", H5_INDEX_NAME, H5_ITER_INC, k, name, sizeof name, H5P_DEFAULT) < 0)
+      return false;
     const Id set(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
     if (!set.open()) return false;
-    const bool good =
-        is_text(set) ? read_array(set, nullptr, &data.texts[name]) : read_array(set, &data.numbers[name], nullptr);
+    const bool good = is_text(set) ? read_array(set, nullptr, &data.texts[name])
+                                   : read_array(set, &data.numbers[name], nullptr);
     if (!good) return false;
   }
   return true;

@@ -37,7 +37,8 @@ bool synchronise(int file)
   return fsync(file) == 0 || errno == EINVAL;
 }
 
-/// A renamed file's new name is on the disk when its directory is; not everybody who may write there may read it.
+/// A renamed file's new name is on the disk when its directory is; not everybody who may write there may read
+/// it.
 std::string bring_directory_to_disk(const std::filesystem::path &of_file)
 {
   const std::string path = of_file.has_parent_path() ? of_file.parent_path().string() : ".";

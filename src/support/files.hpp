@@ -1,6 +1,6 @@
-/// Files that hold either what they are said to hold or what they held before: each write is checked and whole, and
-/// what fails is told with the system's reason. All functions return what went wrong, "<path>: <reason>", empty if
-/// nothing did.
+/// Files that hold either what they are said to hold or what they held before: each write is checked and
+/// whole, and what fails is told with the system's reason. All functions return what went wrong, "<path>:
+/// <reason>", empty if nothing did.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 namespace tribogel
 {
 
-/// A file that grows by whole pieces: of one that cannot be written nothing stays. It notices that it was removed, or
-/// changed by somebody else.
+/// A file that grows by whole pieces: of one that cannot be written nothing stays. It notices that it was
+/// removed, or changed by somebody else.
 class GrowingFile
 {
 public:
@@ -20,8 +20,9 @@ public:
   GrowingFile(const GrowingFile &) = delete;
   GrowingFile &operator=(const GrowingFile &) = delete;
 
-  std::string create(const std::string &path);                       ///< empty; one that is there is replaced
-  std::string resume(const std::string &path, std::uintmax_t bytes); ///< what is there behind these is cut off
+  std::string create(const std::string &path); ///< empty; one that is there is replaced
+  std::string resume(const std::string &path,
+                     std::uintmax_t bytes); ///< what is there behind these is cut off
   std::string append(std::string_view piece);
   std::string bring_to_disk(); ///< what has been written survives the machine's end
   std::uintmax_t size() const { return length; }

@@ -1,5 +1,5 @@
-/// RAII for PETSc objects: a handle destroys its object once, converts to the plain PETSc type, and `put()` is the
-/// output argument of a creating call. Destroy before PetscFinalize.
+/// RAII for PETSc objects: a handle destroys its object once, converts to the plain PETSc type, and `put()`
+/// is the output argument of a creating call. Destroy before PetscFinalize.
 #pragma once
 
 #include <petscdmplex.h>

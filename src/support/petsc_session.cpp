@@ -62,8 +62,8 @@ bool is_name(const std::string &word)
   return word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1]));
 }
 
-/// The options whose value is a word of the message: PETSc does not say which one it could not read. From the database,
-/// and before there is one from the words that PETSc was given.
+/// The options whose value is a word of the message: PETSc does not say which one it could not read. From the
+/// database, and before there is one from the words that PETSc was given.
 std::string options_behind(const std::string &message)
 {
   char *all = nullptr;
@@ -83,8 +83,8 @@ std::string options_behind(const std::string &message)
   return found;
 }
 
-/// Options that have been read already and that PETSc would read again, by other rules: hidden from it while this
-/// lives.
+/// Options that have been read already and that PETSc would read again, by other rules: hidden from it while
+/// this lives.
 class HiddenVariable
 {
 public:
@@ -127,8 +127,9 @@ PetscErrorCode CatchHelp(MPI_Comm, const char format[], ...)
   return 0;
 }
 
-/// PETSc's lists of types, "  -ksp_type <now gmres ...> (one of) cg ...\n", bypass PetscHelpPrintf: several calls make
-/// up the line, and the first and the last are known by their formats. All else is printed as ever.
+/// PETSc's lists of types, "  -ksp_type <now gmres ...> (one of) cg ...\n", bypass PetscHelpPrintf: several
+/// calls make up the line, and the first and the last are known by their formats. All else is printed as
+/// ever.
 PetscErrorCode CatchTypeLists(FILE *file, const char format[], std::va_list list)
 {
   static bool inside = false;
@@ -140,23 +141,26 @@ PetscErrorCode CatchTypeLists(FILE *file, const char format[], std::va_list list
   return 0;
 }
 
-/// One line that a terminal can show: PETSc's messages may have several, and what is quoted may hold anything.
+/// One line that a terminal can show: PETSc's messages may have several, and what is quoted may hold
+/// anything.
 std::string one_line(std::string text)
 {
   for (char &c : text)
-    if (std::iscntrl(static_cast<unsigned char>(c))) c = std::isspace(static_cast<unsigned char>(c)) ? ' ' : '?';
+    if (std::iscntrl(static_cast<unsigned char>(c)))
+      c = std::isspace(static_cast<unsigned char>(c)) ? ' ' : '?';
   std::string line;
   for (std::size_t begin = 0, end; begin < text.size(); begin = end) {
     end = std::min(text.find(' ', begin + 1), text.size());
-    line += end - begin > longest_word ? text.substr(begin, longest_word) + "..." : text.substr(begin, end - begin);
+    line += end - begin > longest_word ? text.substr(begin, longest_word) + "..."
+                                       : text.substr(begin, end - begin);
   }
   while (!line.empty() && line.back() == ' ') line.pop_back();
   return line;
 }
 
-/// An error known to all processes is printed by the first one and returned up to main on all. One that a single
-/// process meets, e.g. while it reads a file for the others, would leave them waiting: it ends the program. The pause
-/// lets the first process, if it has the same error, speak for all.
+/// An error known to all processes is printed by the first one and returned up to main on all. One that a
+/// single process meets, e.g. while it reads a file for the others, would leave them waiting: it ends the
+/// program. The pause lets the first process, if it has the same error, speak for all.
 PetscErrorCode ReportError(MPI_Comm comm, int, const char *function, const char *file, PetscErrorCode code,
                            PetscErrorType type, const char *message, void *)
 {
@@ -205,7 +209,8 @@ PetscSession::PetscSession(const std::vector<std::string> &words, const std::vec
   int count = static_cast<int>(texts.size());
   PetscHelpPrintf = CatchHelp;
   PetscVFPrintf = CatchTypeLists;
-  PetscPushErrorHandler(ReportError, nullptr); // for good: popping it fails when -malloc_debug began in between
+  PetscPushErrorHandler(ReportError,
+                        nullptr); // for good: popping it fails when -malloc_debug began in between
   const HiddenVariable options("PETSC_OPTIONS"), more_options("PETSC_OPTIONS_YAML");
   is_started = PetscInitialize(&count, &arguments, nullptr, nullptr) == 0 &&
                PetscOptionsSetValue(nullptr, "-help", nullptr) == 0;
@@ -215,7 +220,8 @@ PetscSession::PetscSession(const std::vector<std::string> &words, const std::vec
 PetscSession::~PetscSession()
 {
   if (!is_started) return;
-  PetscBool asked = PETSC_FALSE; // debug builds of PETSc list unused options unasked; CheckUnusedOptions is our list
+  PetscBool asked =
+      PETSC_FALSE; // debug builds of PETSc list unused options unasked; CheckUnusedOptions is our list
   PetscOptionsHasName(nullptr, nullptr, "-options_left", &asked);
   if (!asked) PetscOptionsSetValue(nullptr, "-options_left", "false");
   PetscFinalize();

@@ -24,7 +24,8 @@ PetscErrorCode Count(MPI_Comm comm, int mine, std::vector<int> &count, std::vect
 
 } // namespace
 
-PetscErrorCode SharedOrder::SetUp(MPI_Comm on, const std::vector<long long> &keys, const std::vector<int> &lengths)
+PetscErrorCode SharedOrder::SetUp(MPI_Comm on, const std::vector<long long> &keys,
+                                  const std::vector<int> &lengths)
 {
   PetscMPIInt rank;
   std::vector<int> key_count, key_offset;
@@ -38,10 +39,10 @@ PetscErrorCode SharedOrder::SetUp(MPI_Comm on, const std::vector<long long> &key
   const std::size_t all = rank == 0 ? static_cast<std::size_t>(key_offset.back() + key_count.back()) : 0;
   std::vector<long long> key(all);
   std::vector<int> length(all);
-  PetscCallMPI(MPI_Gatherv(keys.data(), own_keys, MPI_LONG_LONG, key.data(), key_count.data(), key_offset.data(),
-                           MPI_LONG_LONG, 0, comm));
-  PetscCallMPI(MPI_Gatherv(lengths.data(), own_keys, MPI_INT, length.data(), key_count.data(), key_offset.data(),
-                           MPI_INT, 0, comm));
+  PetscCallMPI(MPI_Gatherv(keys.data(), own_keys, MPI_LONG_LONG, key.data(), key_count.data(),
+                           key_offset.data(), MPI_LONG_LONG, 0, comm));
+  PetscCallMPI(MPI_Gatherv(lengths.data(), own_keys, MPI_INT, length.data(), key_count.data(),
+                           key_offset.data(), MPI_INT, 0, comm));
   std::vector<std::size_t> sorted(all), begin(all, 0);
   total = 0;
   for (std::size_t k = 0; k < all; ++k) {
@@ -53,7 +54,8 @@ PetscErrorCode SharedOrder::SetUp(MPI_Comm on, const std::vector<long long> &key
   blocks.clear();
   blocks.reserve(all);
   for (std::size_t k = 0; k < all; ++k) {
-    PetscCheck(k == 0 || key[sorted[k - 1]] < key[sorted[k]], PETSC_COMM_SELF, PETSC_ERR_PLIB, "a key is there twice");
+    PetscCheck(k == 0 || key[sorted[k - 1]] < key[sorted[k]], PETSC_COMM_SELF, PETSC_ERR_PLIB,
+               "a key is there twice");
     blocks.push_back({begin[sorted[k]], length[sorted[k]]});
   }
   PetscFunctionReturn(0);
@@ -64,8 +66,8 @@ PetscErrorCode SharedOrder::Gather(const double *local, std::vector<double> &all
   std::vector<double> by_process(count.size() > 1 ? total : 0);
   PetscFunctionBeginUser;
   if (count.size() > 1)
-    PetscCallMPI(
-        MPI_Gatherv(local, mine, MPI_DOUBLE, by_process.data(), count.data(), offset.data(), MPI_DOUBLE, 0, comm));
+    PetscCallMPI(MPI_Gatherv(local, mine, MPI_DOUBLE, by_process.data(), count.data(), offset.data(),
+                             MPI_DOUBLE, 0, comm));
   const double *from = count.size() > 1 ? by_process.data() : local;
   all.resize(total);
   double *to = all.data();
@@ -84,8 +86,8 @@ PetscErrorCode SharedOrder::Scatter(const std::vector<double> &all, double *loca
     from += block.length;
   }
   if (count.size() > 1)
-    PetscCallMPI(
-        MPI_Scatterv(by_process.data(), count.data(), offset.data(), MPI_DOUBLE, local, mine, MPI_DOUBLE, 0, comm));
+    PetscCallMPI(MPI_Scatterv(by_process.data(), count.data(), offset.data(), MPI_DOUBLE, local, mine,
+                              MPI_DOUBLE, 0, comm));
   PetscFunctionReturn(0);
 }
 

@@ -11,8 +11,8 @@ namespace tribogel
 class SharedOrder
 {
 public:
-  /// Each key stands for a block of as many of this process's numbers as its length says; no key twice. The blocks
-  /// follow each other in the order of the keys given. Collective.
+  /// Each key stands for a block of as many of this process's numbers as its length says; no key twice. The
+  /// blocks follow each other in the order of the keys given. Collective.
   PetscErrorCode SetUp(MPI_Comm comm, const std::vector<long long> &keys, const std::vector<int> &lengths);
 
   /// All processes' numbers by increasing key, on the first process. Collective.

@@ -4,9 +4,9 @@
 namespace tribogel
 {
 
-/// From here on SIGUSR1, SIGTERM and SIGINT do no more than to be remembered, and a write that meets a limit of file
-/// sizes or a pipe without reader fails instead of ending the program. After PetscInitialize, whose handlers they
-/// replace.
+/// From here on SIGUSR1, SIGTERM and SIGINT do no more than to be remembered, and a write that meets a limit
+/// of file sizes or a pipe without reader fails instead of ending the program. After PetscInitialize, whose
+/// handlers they replace.
 void catch_stop_signals();
 
 /// The last one that this process got, 0 if none.

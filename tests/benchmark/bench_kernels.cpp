@@ -1,5 +1,6 @@
-// Kernels against the machine: a material point, residual and tangent of a cell, mortar integrals of a pair of facets,
-// each with a plain count of its arithmetic; and what this core does at best in cache and from memory.
+// Kernels against the machine: a material point, residual and tangent of a cell, mortar integrals of a pair
+// of facets, each with a plain count of its arithmetic; and what this core does at best in cache and from
+// memory.
 #include "tribogel/contact/quad_mortar.hpp"
 #include "tribogel/element/mean_dilatation.hpp"
 #include "tribogel/kinematics/axisymmetric.hpp"
@@ -77,8 +78,8 @@ template <class Scalar> void material_points(benchmark::State &state, bool visco
   }
   for (auto _ : state) {
     F[0](0, 0) += 1e-9;
-    benchmark::DoNotOptimize(evaluate_points(material, count, F.data(), history.data(), {0.5, 1}, after.data(),
-                                             with_tangent, response.data()));
+    benchmark::DoNotOptimize(evaluate_points(material, count, F.data(), history.data(), {0.5, 1},
+                                             after.data(), with_tangent, response.data()));
     benchmark::ClobberMemory();
   }
   set_rate(state, "points/s", count);
@@ -103,9 +104,9 @@ template <class Kinematics, int order> struct Sample {
   }
 };
 
-/// What the loops over nodes and inputs of the tangent do (the widest ones: sums over pairs of nodes of inputs that
-/// belong to unknowns i <= j, the low-rank part of the dilatation, the second derivative by the inputs); the
-/// material's point is not in it.
+/// What the loops over nodes and inputs of the tangent do (the widest ones: sums over pairs of nodes of
+/// inputs that belong to unknowns i <= j, the low-rank part of the dilatation, the second derivative by the
+/// inputs); the material's point is not in it.
 template <class Element, class Kinematics> double tangent_operations()
 {
   const double n = Element::nodes, u = Element::unknowns, m = Element::modes;
@@ -125,13 +126,14 @@ void cell(benchmark::State &state, Kinematics kinematics, bool viscoelastic)
   const auto material = gel(viscoelastic).cast<Lanes>();
   const int stride = material.history_size();
   std::vector<double> history(static_cast<std::size_t>(Element::points * stride));
-  for (int q = 0; stride > 0 && q < Element::points; ++q) gel(viscoelastic).initial_history(&history[q * stride]);
+  for (int q = 0; stride > 0 && q < Element::points; ++q)
+    gel(viscoelastic).initial_history(&history[q * stride]);
   typename Element::template Evaluation<double> evaluation;
   typename Element::Matrix K;
   for (auto _ : state) {
     sample.U[0] += 1e-9;
-    if (evaluation.set(kinematics, sample.cell, material, sample.U, history.data(), {0.5, 0}, nullptr, tangent) !=
-        PointStatus::ok)
+    if (evaluation.set(kinematics, sample.cell, material, sample.U, history.data(), {0.5, 0}, nullptr,
+                       tangent) != PointStatus::ok)
       state.SkipWithError("the sample is turned inside out");
     if constexpr (tangent) {
       Element::tangent(kinematics, sample.cell, evaluation, K);
@@ -151,10 +153,10 @@ template <int order> void register_cells()
     const std::string end =
         std::string(viscoelastic ? "viscoelastic" : "hyperelastic") + "/order:" + std::to_string(order);
     const auto add = [&]<class Kinematics>(const char *name, const Kinematics &k) {
-      benchmark::RegisterBenchmark((std::string(name) + "/residual/" + end).c_str(), cell<Kinematics, order, false>, k,
-                                   viscoelastic);
-      benchmark::RegisterBenchmark((std::string(name) + "/tangent/" + end).c_str(), cell<Kinematics, order, true>, k,
-                                   viscoelastic);
+      benchmark::RegisterBenchmark((std::string(name) + "/residual/" + end).c_str(),
+                                   cell<Kinematics, order, false>, k, viscoelastic);
+      benchmark::RegisterBenchmark((std::string(name) + "/tangent/" + end).c_str(),
+                                   cell<Kinematics, order, true>, k, viscoelastic);
     };
     add("axisymmetric", AxisymmetricTorsion{10});
     add("solid", Solid{});
@@ -183,10 +185,10 @@ int main(int argc, char **argv)
 {
   for (const bool viscoelastic : {false, true})
     for (const bool with_tangent : {false, true}) {
-      const std::string end =
-          std::string(viscoelastic ? "viscoelastic" : "hyperelastic") + (with_tangent ? "_tangent" : "_stress");
-      benchmark::RegisterBenchmark(("material/one_by_one/" + end).c_str(), material_points<double>, viscoelastic,
-                                   with_tangent);
+      const std::string end = std::string(viscoelastic ? "viscoelastic" : "hyperelastic") +
+                              (with_tangent ? "_tangent" : "_stress");
+      benchmark::RegisterBenchmark(("material/one_by_one/" + end).c_str(), material_points<double>,
+                                   viscoelastic, with_tangent);
       benchmark::RegisterBenchmark(("material/lanes/" + end).c_str(), material_points<Lanes>, viscoelastic,
                                    with_tangent);
     }

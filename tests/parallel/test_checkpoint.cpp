@@ -1,6 +1,7 @@
-/// A run that goes on from a checkpoint is the run that was never interrupted: on one rank bit for bit, on others to
-/// the round-off of another order of summation (MUMPS on several ranks sums in the order in which messages come).
-/// Checkpoints are written by all ranks of PETSC_COMM_WORLD and read by each rank alone, and the other way round.
+/// A run that goes on from a checkpoint is the run that was never interrupted: on one rank bit for bit, on
+/// others to the round-off of another order of summation (MUMPS on several ranks sums in the order in which
+/// messages come). Checkpoints are written by all ranks of PETSC_COMM_WORLD and read by each rank alone, and
+/// the other way round.
 #include "observe/checkpoint.hpp"
 #include "probe.hpp"
 #include "scene/user_error.hpp"
@@ -143,7 +144,8 @@ double sum_over(MPI_Comm comm, double share)
 }
 
 /// Largest differences relative to the largest N, T = N R, work.
-void expect_same_rows(const std::vector<HistoryRow> &a, const std::vector<HistoryRow> &b, double R, double tolerance)
+void expect_same_rows(const std::vector<HistoryRow> &a, const std::vector<HistoryRow> &b, double R,
+                      double tolerance)
 {
   ASSERT_EQ(a.size(), b.size());
   double N = 0, work = 0, difference = 0;
@@ -154,7 +156,8 @@ void expect_same_rows(const std::vector<HistoryRow> &a, const std::vector<Histor
     const Measurement &m = a[k].measurement, &n = b[k].measurement;
     N = std::max(N, std::abs(n.normal_force));
     work = std::max(work, std::abs(b[k].energy.work));
-    difference = std::max({difference, std::abs(m.normal_force - n.normal_force), std::abs(m.torque - n.torque) / R});
+    difference =
+        std::max({difference, std::abs(m.normal_force - n.normal_force), std::abs(m.torque - n.torque) / R});
     for (double EnergyBalance::*part :
          {&EnergyBalance::work, &EnergyBalance::stored, &EnergyBalance::viscous, &EnergyBalance::friction})
       EXPECT_NEAR(a[k].energy.*part, b[k].energy.*part, 1e-10 * work);

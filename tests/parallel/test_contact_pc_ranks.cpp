@@ -1,5 +1,5 @@
-/// The preconditioner `contact` on several ranks: the numbers of a direct solver on one, and as good a start for the
-/// Krylov method as there.
+/// The preconditioner `contact` on several ranks: the numbers of a direct solver on one, and as good a start
+/// for the Krylov method as there.
 #include "scenes.hpp"
 #include "solver_options.hpp"
 
@@ -47,12 +47,14 @@ TEST(contact_pc_ranks, GivesTheNumbersOfADirectSolver)
   EXPECT_GT(exact.N, 10);
   EXPECT_GT(exact.T, 1);
   for (const bool inner_is_exact : {true, false}) {
-    OptionList options{
-        {"-pc_type", "contact"}, {"-ksp_type", "gmres"}, {"-ksp_pc_side", "right"}, {"-ksp_gmres_restart", "200"}};
+    OptionList options{{"-pc_type", "contact"},
+                       {"-ksp_type", "gmres"},
+                       {"-ksp_pc_side", "right"},
+                       {"-ksp_gmres_restart", "200"}};
     if (inner_is_exact)
-      options.insert(
-          options.end(),
-          {{"-ksp_rtol", "1e-8"}, {"-condensed_pc_type", "lu"}, {"-condensed_pc_factor_mat_solver_type", "mumps"}});
+      options.insert(options.end(), {{"-ksp_rtol", "1e-8"},
+                                     {"-condensed_pc_type", "lu"},
+                                     {"-condensed_pc_factor_mat_solver_type", "mumps"}});
     else
       options.insert(options.end(), {{"-ksp_rtol", "1e-4"}, {"-condensed_pc_type", "gamg"}});
     const Outcome found = outcome(PETSC_COMM_WORLD, scene, options);
@@ -62,9 +64,9 @@ TEST(contact_pc_ranks, GivesTheNumbersOfADirectSolver)
     int rank;
     MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
     if (rank == 0)
-      std::printf("%s: %.3g of N, %.3g of N R; %d linear in %d Newton iterations\n", inner_is_exact ? "lu" : "gamg",
-                  found.N / exact.N - 1, (found.T - exact.T) / (exact.N * scene.top.radius), found.linear,
-                  found.newton);
+      std::printf("%s: %.3g of N, %.3g of N R; %d linear in %d Newton iterations\n",
+                  inner_is_exact ? "lu" : "gamg", found.N / exact.N - 1,
+                  (found.T - exact.T) / (exact.N * scene.top.radius), found.linear, found.newton);
   }
 }
 

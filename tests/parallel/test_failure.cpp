@@ -1,7 +1,7 @@
 /// Failures on several ranks.
 ///
-/// A cell that turns inside out on one rank makes every rank leave the solve, so that all cut the step together; were
-/// the failure that rank's own, the others would wait in the solver for ever.
+/// A cell that turns inside out on one rank makes every rank leave the solve, so that all cut the step
+/// together; were the failure that rank's own, the others would wait in the solver for ever.
 #include "scenes.hpp"
 #include "solver_options.hpp"
 

@@ -1,6 +1,7 @@
-/// Any number of ranks gives the numbers of one: the same scene with equal fixed steps on all ranks of PETSC_COMM_WORLD
-/// and, alone, on PETSC_COMM_SELF. Newton goes on to 1e-12 of the forces, the solver is direct, so that what is left is
-/// the round-off of another order of summation: |dN| <= 1e-10 max N, |dT| <= 1e-10 max N R at every step.
+/// Any number of ranks gives the numbers of one: the same scene with equal fixed steps on all ranks of
+/// PETSC_COMM_WORLD and, alone, on PETSC_COMM_SELF. Newton goes on to 1e-12 of the forces, the solver is
+/// direct, so that what is left is the round-off of another order of summation: |dN| <= 1e-10 max N, |dT| <=
+/// 1e-10 max N R at every step.
 #include "hertz.hpp"
 #include "probe.hpp"
 
@@ -58,7 +59,8 @@ TEST_P(ranks, GiveTheNumbersOfOne)
     EXPECT_EQ(many.rows[k].time, one.rows[k].time);
     const Measurement &a = many.rows[k].measurement, &b = one.rows[k].measurement;
     N = std::max(N, std::abs(b.normal_force));
-    dN = std::max({dN, std::abs(a.normal_force - b.normal_force), std::abs(a.contact_force - b.contact_force)});
+    dN = std::max(
+        {dN, std::abs(a.normal_force - b.normal_force), std::abs(a.contact_force - b.contact_force)});
     dT = std::max({dT, std::abs(a.torque - b.torque), std::abs(a.contact_torque - b.contact_torque)});
   }
   EXPECT_GT(N, 10);
@@ -100,7 +102,8 @@ TEST(ranks_partition, SharesTheCellsOut)
   Problem shared, single;
   ASSERT_EQ(shared.SetUp(PETSC_COMM_WORLD, scene_of(2, 0)), 0);
   ASSERT_EQ(single.SetUp(PETSC_COMM_SELF, scene_of(2, 0)), 0);
-  const int all = static_cast<int>(single.mesh.cells.size()), mine = static_cast<int>(shared.mesh.cells.size());
+  const int all = static_cast<int>(single.mesh.cells.size()),
+            mine = static_cast<int>(shared.mesh.cells.size());
   EXPECT_EQ(sum_over_ranks(mine), all);
   EXPECT_NEAR(mine, static_cast<double>(all) / size, 1);
   int owned = 0;
@@ -110,7 +113,8 @@ TEST(ranks_partition, SharesTheCellsOut)
   const double unknowns = static_cast<double>(shared.group.size());
   EXPECT_EQ(sum_over_ranks(static_cast<int>(shared.group.size())), shared.mesh.unknowns);
   EXPECT_EQ(shared.mesh.unknowns, single.mesh.unknowns);
-  // Nodes between two ranks have one owner and multipliers are at the walls: 0.83 to 1.26 of an equal share on 4 ranks.
+  // Nodes between two ranks have one owner and multipliers are at the walls: 0.83 to 1.26 of an equal share
+  // on 4 ranks.
   EXPECT_LE(unknowns, (size == 1 ? 1 : 1.3 / size) * single.mesh.unknowns);
   EXPECT_GE(unknowns, 0.8 / size * single.mesh.unknowns);
 }
@@ -121,8 +125,8 @@ TEST(ranks_partition, KnowsTheContactSurfacesEverywhere)
   Problem shared, single;
   ASSERT_EQ(shared.SetUp(PETSC_COMM_WORLD, scene_of(2, 0)), 0);
   ASSERT_EQ(single.SetUp(PETSC_COMM_SELF, scene_of(2, 0)), 0);
-  for (const auto &[many, one] :
-       {std::pair{&shared.mesh.slave, &single.mesh.slave}, std::pair{&shared.mesh.master, &single.mesh.master}}) {
+  for (const auto &[many, one] : {std::pair{&shared.mesh.slave, &single.mesh.slave},
+                                  std::pair{&shared.mesh.master, &single.mesh.master}}) {
     ASSERT_EQ(many->node.size(), one->node.size());
     ASSERT_EQ(many->facet.size(), one->facet.size());
     for (std::size_t n = 0; n < one->node.size(); ++n) {

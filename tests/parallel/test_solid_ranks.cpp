@@ -1,5 +1,5 @@
-/// Solids on any number of ranks: force and torque of a single gel are those of one rank, to the round-off of another
-/// order of summation; the surfaces of two gels are the same list on every rank.
+/// Solids on any number of ranks: force and torque of a single gel are those of one rank, to the round-off of
+/// another order of summation; the surfaces of two gels are the same list on every rank.
 #include "gmsh_writer.hpp"
 #include "solids.hpp"
 
@@ -19,7 +19,8 @@ void run_on(MPI_Comm comm, const Scene &scene, const SerialMesh &serial, Problem
 }
 
 /// N to 1e-10 of itself, T of N R.
-void compare(const Scene &scene, Problem &shared, Problem &single, const SerialMesh &given, const SerialMesh &whole)
+void compare(const Scene &scene, Problem &shared, Problem &single, const SerialMesh &given,
+             const SerialMesh &whole)
 {
   Recorder many(""), one("");
   run_on(PETSC_COMM_WORLD, scene, given, shared, many);
@@ -55,7 +56,8 @@ TEST(solid_ranks, GiveTheNumbersOfOne)
     scene.schedule = schedule_from_twists({1, 2}, {0.3, 0.3}, {0, 0.5});
     Problem shared, single;
     compare(scene, shared, single);
-    EXPECT_EQ(sum_over_ranks(static_cast<int>(shared.mesh.cells.size())), static_cast<int>(single.mesh.cells.size()));
+    EXPECT_EQ(sum_over_ranks(static_cast<int>(shared.mesh.cells.size())),
+              static_cast<int>(single.mesh.cells.size()));
   }
 }
 
@@ -103,8 +105,9 @@ TEST(solid_ranks, KnowTheSurfacesEverywhere)
     Mesh shared, single;
     ASSERT_EQ(shared.Build(PETSC_COMM_WORLD, scene, serial), 0);
     ASSERT_EQ(single.Build(PETSC_COMM_SELF, scene, serial), 0);
-    for (const auto &[many, one] : {std::pair{&shared.slave, &single.slave}, std::pair{&shared.master, &single.master},
-                                    std::pair{&shared.wall[0], &single.wall[0]}}) {
+    for (const auto &[many, one] :
+         {std::pair{&shared.slave, &single.slave}, std::pair{&shared.master, &single.master},
+          std::pair{&shared.wall[0], &single.wall[0]}}) {
       EXPECT_EQ(many->facet, one->facet);
       ASSERT_EQ(many->node.size(), one->node.size());
       for (std::size_t n = 0; n < one->node.size(); ++n) {

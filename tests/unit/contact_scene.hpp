@@ -1,5 +1,5 @@
-/// Two meridian curves with chosen or random meshes and states, and the whole residual of their contact in any
-/// arithmetic.
+/// Two meridian curves with chosen or random meshes and states, and the whole residual of their contact in
+/// any arithmetic.
 #pragma once
 
 #include "contact/kernels.hpp"
@@ -14,8 +14,8 @@ namespace tribogel::testing
 
 using Law = PolynomialFriction<double>;
 
-/// A curve through the points at(s) with s = breaks[0], breaks[1], ...: one facet between two breaks, midside nodes in
-/// between.
+/// A curve through the points at(s) with s = breaks[0], breaks[1], ...: one facet between two breaks, midside
+/// nodes in between.
 inline SurfaceReference curve(int order, const std::vector<double> &breaks,
                               const std::function<PlanePoint<double>(double)> &at)
 {
@@ -30,7 +30,8 @@ inline SurfaceReference curve(int order, const std::vector<double> &breaks,
   return surface;
 }
 
-/// `count` intervals of [from, to], their inner limits displaced by up to a fraction `disorder` of half an interval.
+/// `count` intervals of [from, to], their inner limits displaced by up to a fraction `disorder` of half an
+/// interval.
 inline std::vector<double> breaks(int count, double from, double to, double disorder = 0, unsigned seed = 1)
 {
   std::mt19937 random(seed);
@@ -52,7 +53,8 @@ struct ContactScene {
   ContactGeometry geometry;
   ContactState<double> state;
 
-  ContactScene(const SurfaceReference &slave, const SurfaceReference &master, const ContactParameters &parameters)
+  ContactScene(const SurfaceReference &slave, const SurfaceReference &master,
+               const ContactParameters &parameters)
       : geometry(slave, master, parameters)
   {
     const auto rest = [](SurfaceState<double> &surface, std::size_t nodes) {
@@ -68,8 +70,8 @@ struct ContactScene {
   int master_nodes() const { return static_cast<int>(geometry.master.X.size()); }
   int unknowns() const { return 6 * slave_nodes() + 3 * master_nodes(); } // slave u, master u, multipliers
 
-  /// Displacements up to `amplitude`, rates up to `rate`, both without radial part on the axis; multipliers around
-  /// `pressure` with tangential parts up to `shear`.
+  /// Displacements up to `amplitude`, rates up to `rate`, both without radial part on the axis; multipliers
+  /// around `pressure` with tangential parts up to `shear`.
   void disturb(double amplitude, double rate, double pressure, double shear, unsigned seed)
   {
     std::mt19937 random(seed);
@@ -121,7 +123,8 @@ inline ContactState<Dual<1>> moving(const ContactScene &scene, const Eigen::Vect
 /// The whole residual by the generic functions, without the operator class and its chain rule.
 template <class T>
 Eigen::Matrix<T, Eigen::Dynamic, 1> whole_residual(const ContactScene &scene, const ContactState<T> &state,
-                                                   const std::vector<std::pair<int, int>> &pairs, const Law &law)
+                                                   const std::vector<std::pair<int, int>> &pairs,
+                                                   const Law &law)
 {
   const ContactGeometry &geometry = scene.geometry;
   const LineChain &chain = geometry.slave_chain;
@@ -174,8 +177,8 @@ inline std::vector<std::pair<int, int>> pairs_of_scene(const ContactScene &scene
 }
 
 /// Residual and Jacobian by the operator, node by node, as a solver would assemble them.
-inline Assembled assemble(const ContactScene &scene, const std::vector<std::pair<int, int>> &pairs, const Law &law,
-                          bool derivatives)
+inline Assembled assemble(const ContactScene &scene, const std::vector<std::pair<int, int>> &pairs,
+                          const Law &law, bool derivatives)
 {
   AxisymmetricContact contact(scene.geometry);
   const int slaves = scene.slave_nodes(), masters = scene.master_nodes(), n = scene.unknowns();

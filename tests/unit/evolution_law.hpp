@@ -16,7 +16,8 @@ using tribogel::from_mandel;
 using tribogel::Mandel;
 using tribogel::to_mandel;
 
-/// Shear, stretch and rotation about axes that turn: no two times are coaxial. A cycle of 4 s that starts with a jerk.
+/// Shear, stretch and rotation about axes that turn: no two times are coaxial. A cycle of 4 s that starts
+/// with a jerk.
 inline Matrix3<double> wandering(double t)
 {
   const double w = std::numbers::pi / 2;
@@ -25,10 +26,10 @@ inline Matrix3<double> wandering(double t)
          0.2 * std::sin(2 * w * t) * noise(73);
 }
 
-/// The evolution law -1/2 (L_v b_e) b_e^-1 = V^-1 : tau as an ordinary differential equation for X = C_i^-1 of each
-/// branch, b_e = F X F^T: dX/dt = -2 F^-1 (V^-1 : tau) b_e F^-T. Integrated by a library to 1e-12.
-std::vector<double> integrate_flow(const Viscoelastic<double> &material, Matrix3<double> (*deformation)(double),
-                                   double end);
+/// The evolution law -1/2 (L_v b_e) b_e^-1 = V^-1 : tau as an ordinary differential equation for X = C_i^-1
+/// of each branch, b_e = F X F^T: dX/dt = -2 F^-1 (V^-1 : tau) b_e F^-T. Integrated by a library to 1e-12.
+std::vector<double> integrate_flow(const Viscoelastic<double> &material,
+                                   Matrix3<double> (*deformation)(double), double end);
 
 inline Mandel<double> stress_at(const Viscoelastic<double> &material, const Matrix3<double> &F,
                                 const std::vector<double> &history)

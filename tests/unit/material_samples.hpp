@@ -1,4 +1,5 @@
-/// Materials and deformations for the tests of the bulk law. No parameter is 0, 1 or equal to another by accident.
+/// Materials and deformations for the tests of the bulk law. No parameter is 0, 1 or equal to another by
+/// accident.
 #pragma once
 
 #include "tribogel/material/viscoelastic.hpp"
@@ -78,7 +79,8 @@ inline Matrix3<double> stretched(double a, double b, double c, int seed)
   return R * Q * Vector3<double>(a, b, c).asDiagonal() * Q.transpose();
 }
 
-/// History of every branch after some other deformation: symmetric, positive definite, not isochoric, not the identity.
+/// History of every branch after some other deformation: symmetric, positive definite, not isochoric, not the
+/// identity.
 inline std::vector<double> history(const Viscoelastic<double> &material, int seed)
 {
   std::vector<double> h;
@@ -110,8 +112,8 @@ struct Step {
   std::vector<double> history;
 };
 
-inline Step take(const Viscoelastic<double> &material, const Matrix3<double> &F, const std::vector<double> &history,
-                 double step, bool with_tangent = true)
+inline Step take(const Viscoelastic<double> &material, const Matrix3<double> &F,
+                 const std::vector<double> &history, double step, bool with_tangent = true)
 {
   Step out;
   out.history.assign(history.size(), 0);

@@ -119,7 +119,8 @@ Matrix Branch::relax(const Matrix &trial, Real step) const
     Eigen::Matrix<Real, 6, 6> jacobian;
     const Vector6 base = residual(real_part(x), trial); // its imaginary part is that of trial and parameters
     for (int k = 0; k < 6; ++k)
-      jacobian.col(k) = (residual(real_part(x) + Complex(0, tiny) * unit_strain(k), trial) - base).imag() / tiny;
+      jacobian.col(k) =
+          (residual(real_part(x) + Complex(0, tiny) * unit_strain(k), trial) - base).imag() / tiny;
     const auto solver = jacobian.partialPivLu();
     for (int repeat = 0; repeat < (real ? 1 : 4); ++repeat) {
       const Vector6 r = residual(x, trial);
@@ -182,7 +183,8 @@ std::vector<Matrix> lift_history(const std::vector<double> &history)
 {
   std::vector<Matrix> out;
   for (std::size_t i = 0; i < history.size(); i += 6)
-    out.push_back(lift(tribogel::from_mandel<double>(Eigen::Map<const tribogel::Mandel<double>>(&history[i]))));
+    out.push_back(
+        lift(tribogel::from_mandel<double>(Eigen::Map<const tribogel::Mandel<double>>(&history[i]))));
   return out;
 }
 

@@ -1,8 +1,10 @@
-/// The bulk law once more, for the tests: tensors instead of principal values, matrix functions by series and square
-/// roots instead of eigenvectors, complex long double instead of dual numbers. Nothing is shared with the code under
-/// test but the parameters, so that eigenvalues may coincide without being a special case anywhere.
+/// The bulk law once more, for the tests: tensors instead of principal values, matrix functions by series and
+/// square roots instead of eigenvectors, complex long double instead of dual numbers. Nothing is shared with
+/// the code under test but the parameters, so that eigenvalues may coincide without being a special case
+/// anywhere.
 ///
-/// Every function is analytic: f(x + i h y) with a tiny h has the exact directional derivative in its imaginary part.
+/// Every function is analytic: f(x + i h y) with a tiny h has the exact directional derivative in its
+/// imaginary part.
 #pragma once
 
 #include "tribogel/material/viscoelastic.hpp"
@@ -41,8 +43,9 @@ struct Branch {
   /// V^-1 : tau.
   Matrix flow(const Matrix &tau) const;
 
-  /// strain + step V^-1 : tau(strain) = trial, by Newton's method on six unknowns: first the real part, then the whole
-  /// with the Jacobian of the last real iterate, which is enough for the infinitesimal imaginary part.
+  /// strain + step V^-1 : tau(strain) = trial, by Newton's method on six unknowns: first the real part, then
+  /// the whole with the Jacobian of the last real iterate, which is enough for the infinitesimal imaginary
+  /// part.
   Matrix relax(const Matrix &trial, Real step) const;
 };
 

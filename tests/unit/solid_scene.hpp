@@ -1,5 +1,5 @@
-/// Two rectangular surfaces for tests of the contact in space: the slave above, its normal down, on a master that faces
-/// up.
+/// Two rectangular surfaces for tests of the contact in space: the slave above, its normal down, on a master
+/// that faces up.
 #pragma once
 
 #include "contact/kernels.hpp"
@@ -70,7 +70,8 @@ struct SolidScene {
       for (int k = 0; k < block.slave_rows; ++k)
         F.segment<3>(3 * block.slave_nodes[k]) += block.residual.segment<3>(3 * k);
       for (std::size_t k = 0; k < block.master_nodes.size(); ++k)
-        F.segment<3>(3 * (slaves() + block.master_nodes[k])) += block.residual.segment<3>(3 * (block.slave_rows + k));
+        F.segment<3>(3 * (slaves() + block.master_nodes[k])) +=
+            block.residual.segment<3>(3 * (block.slave_rows + k));
       F.segment<3>(3 * (slaves() + masters() + a)) += block.residual.tail<3>();
     }
     return F;
@@ -83,7 +84,8 @@ struct SolidScene {
   }
 };
 
-/// Displaced, sliding and loaded nodes, and plates in motion; positive loads press a slave whose normal points down.
+/// Displaced, sliding and loaded nodes, and plates in motion; positive loads press a slave whose normal
+/// points down.
 inline void make_general(SolidScene &scene, double load, unsigned seed)
 {
   std::mt19937 random(seed);
@@ -110,8 +112,8 @@ inline void make_general(SolidScene &scene, double load, unsigned seed)
   state.stick_rate = 2.3;
 }
 
-/// Largest difference of the operator's Jacobian from central differences of its residual, over the largest entry.
-/// Every `stride`th column is compared.
+/// Largest difference of the operator's Jacobian from central differences of its residual, over the largest
+/// entry. Every `stride`th column is compared.
 template <class Law> double jacobian_error(const SolidScene &scene, const Law &law, Eigen::Index stride)
 {
   SolidContact contact(scene.geometry);
@@ -152,15 +154,16 @@ template <class Law> double jacobian_error(const SolidScene &scene, const Law &l
 inline SolidScene general_solid_scene(int order, double load, unsigned seed, bool exact_cells = true)
 {
   const auto bump = [](double x, double y) { return 0.03 * x * x - 0.02 * x * y + 0.01 * y; };
-  SolidScene scene(quad_grid(2, 2, 2, 1.6, order, false,
-                             [&](double x, double y) {
-                               return Vector3<double>(x + 0.05 * y * y, y + 0.04 * x * y, bump(x, y) + 0.02 * x);
-                             }),
-                   quad_grid(3, 4, 3.4, 3, order, true,
-                             [&](double x, double y) {
-                               return Vector3<double>(x - 0.1 * y, y + 0.03 * x * x, bump(x, y) - 0.01 * y * y);
-                             }),
-                   order, exact_cells);
+  SolidScene scene(
+      quad_grid(2, 2, 2, 1.6, order, false,
+                [&](double x, double y) {
+                  return Vector3<double>(x + 0.05 * y * y, y + 0.04 * x * y, bump(x, y) + 0.02 * x);
+                }),
+      quad_grid(3, 4, 3.4, 3, order, true,
+                [&](double x, double y) {
+                  return Vector3<double>(x - 0.1 * y, y + 0.03 * x * x, bump(x, y) - 0.01 * y * y);
+                }),
+      order, exact_cells);
   make_general(scene, load, seed);
   return scene;
 }

@@ -1,5 +1,5 @@
-/// Pressure and height on the axis of a curve of order 2, from the two nodes next to it: right for parabolas, on
-/// uniform, graded and curved facets, and of fourth order in the facets' length for what is none.
+/// Pressure and height on the axis of a curve of order 2, from the two nodes next to it: right for parabolas,
+/// on uniform, graded and curved facets, and of fourth order in the facets' length for what is none.
 #include "tribogel/contact/axis_value.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,8 @@ Curve curve(const std::vector<double> &ends, double middle, const std::function<
   return x;
 }
 
-/// What a contact's node a reports of p(r): its share of the force over its share of the area, by the midpoint rule.
+/// What a contact's node a reports of p(r): its share of the force over its share of the area, by the
+/// midpoint rule.
 double nodal_mean(const Curve &x, std::size_t a, const std::function<double(double)> &p)
 {
   constexpr int points = 20000;
@@ -56,8 +57,9 @@ TEST(axis_value, OfAParabolaIsExact)
   const auto bowl = [](double r) { return -0.4 + 0.03 * r * r; };
   const auto uniform = [](double) { return 1.7; };
   const auto parabola = [](double r) { return 1.7 * (1 - 0.08 * r * r); };
-  for (const Curve &x : {curve({0, 1}, 0.5, flat), curve({0, 1, 2, 3}, 0.5, flat), curve({0, 1.3, 2.1, 2.5}, 0.5, flat),
-                         curve({0, 1, 2}, 0.47, bowl), curve({0, 1.3, 1.6}, 0.52, bowl)}) {
+  for (const Curve &x :
+       {curve({0, 1}, 0.5, flat), curve({0, 1, 2, 3}, 0.5, flat), curve({0, 1.3, 2.1, 2.5}, 0.5, flat),
+        curve({0, 1, 2}, 0.47, bowl), curve({0, 1.3, 1.6}, 0.52, bowl)}) {
     EXPECT_NEAR(height_on_axis(x), x.front().z, 1e-14);
     EXPECT_NEAR(on_axis(x, uniform), 1.7, 1e-12);
     EXPECT_NEAR(on_axis(x, parabola), 1.7, 1e-7); // the means are those of the midpoint rule

@@ -62,7 +62,8 @@ void expect_derivative(const Vector10 &x, const Law &law, ContactStatus status, 
     const Vector10 step = h * Vector10::Unit(j);
     ASSERT_EQ(condition(x + step).status, status);
     ASSERT_EQ(condition(x - step).status, status);
-    const Vector3<double> difference = (condition(x + step).residual - condition(x - step).residual) / (2 * h);
+    const Vector3<double> difference =
+        (condition(x + step).residual - condition(x - step).residual) / (2 * h);
     EXPECT_LT((J.col(j) - difference).norm(), 1e-8 * (1 + J.norm())) << "column " << j;
   }
 }
@@ -71,11 +72,14 @@ TEST(ContactCondition, DerivativeInEveryStatusForEveryLaw)
 {
   const Vector3<double> pressure = -1.7 * normal;
   for (const Law &law : {viscous, coulomb, mixed, weakening, frictionless}) {
-    expect_derivative(pack(pressure + tangential(0.3, -0.2), 2.1, tangential(0.4, 0.7)), law, ContactStatus::open);
-    expect_derivative(pack(pressure + tangential(0.9, -1.2), 0.03, tangential(-0.8, 1.7)), law, ContactStatus::slip);
-    expect_derivative(pack(pressure + tangential(0.9, -1.2), -0.3, tangential(-0.8, 1.7)), law, ContactStatus::slip);
-    expect_derivative(pack(pressure + tangential(0.3, -0.2), -0.1, tangential(0.4, 0.7)), law, ContactStatus::stick,
-                      true);
+    expect_derivative(pack(pressure + tangential(0.3, -0.2), 2.1, tangential(0.4, 0.7)), law,
+                      ContactStatus::open);
+    expect_derivative(pack(pressure + tangential(0.9, -1.2), 0.03, tangential(-0.8, 1.7)), law,
+                      ContactStatus::slip);
+    expect_derivative(pack(pressure + tangential(0.9, -1.2), -0.3, tangential(-0.8, 1.7)), law,
+                      ContactStatus::slip);
+    expect_derivative(pack(pressure + tangential(0.3, -0.2), -0.1, tangential(0.4, 0.7)), law,
+                      ContactStatus::stick, true);
   }
   for (const Law &law : {coulomb, mixed, weakening})
     expect_derivative(pack(pressure + tangential(0.11, -0.2), -0.03, tangential(0.04, 0.07)), law,
@@ -119,13 +123,16 @@ TEST(ContactCondition, NormalVelocityDoesNotRub)
 
 TEST(ContactCondition, FirstTouchFeelsFrictionThroughThePenetration)
 {
-  // just penetrated, no multiplier yet: a small slip increment sticks, a large one slips with strength mu c_N |g|
+  // just penetrated, no multiplier yet: a small slip increment sticks, a large one slips with strength mu c_N
+  // |g|
   const Vector3<double> none = Vector3<double>::Zero();
   const double g = -0.02, b = 0.29 * scale.normal * 0.02;
-  const auto small = contact_condition<double>(unpack<double>(pack(none, g, tangential(0, 0.001))), scale, coulomb);
+  const auto small =
+      contact_condition<double>(unpack<double>(pack(none, g, tangential(0, 0.001))), scale, coulomb);
   EXPECT_EQ(small.status, ContactStatus::stick);
   EXPECT_NEAR(small.residual[1], scale.tangential * 0.001, 1e-17);
-  const auto large = contact_condition<double>(unpack<double>(pack(none, g, tangential(0, 5))), scale, coulomb);
+  const auto large =
+      contact_condition<double>(unpack<double>(pack(none, g, tangential(0, 5))), scale, coulomb);
   EXPECT_EQ(large.status, ContactStatus::slip);
   EXPECT_NEAR(large.residual[1], b, 1e-16);
 }
@@ -205,7 +212,8 @@ TEST(ContactCondition, NewtonFindsStickAndSlipFromRest)
     for (int trial = 0; trial < 1000; ++trial) {
       const double k = decades(-1, 1), shift = decades(-2, 2), b0 = decades(-3, 0), c_T = 2 * k / shift;
       const Vector3<double> V(decades(-2, 1), -decades(-2, 1), 0);
-      const double b1 = decades(-4, 4) * c_T / std::pow(V.norm(), exponent - 1); // drag over c_T from 1e-4 to 1e4
+      const double b1 =
+          decades(-4, 4) * c_T / std::pow(V.norm(), exponent - 1); // drag over c_T from 1e-4 to 1e4
       worst = std::max(worst, newton_iterations({{b0, b1}, {0, exponent}}, k, shift, V, 1.3, c_T));
     }
   EXPECT_LT(worst, 30);
@@ -215,8 +223,8 @@ TEST(ContactCondition, NewtonFindsStickAndSlipFromRest)
 TEST(ContactCondition, OnTheAxisTangentialTractionVanishes)
 {
   const Vector3<double> down(0, 0, -1), multiplier(0.3, -0.4, 1.7);
-  const auto C =
-      contact_condition<double>(unpack<double>(pack(multiplier, -0.2, {0.1, 0.2, 0.3}, down)), scale, mixed, true);
+  const auto C = contact_condition<double>(unpack<double>(pack(multiplier, -0.2, {0.1, 0.2, 0.3}, down)),
+                                           scale, mixed, true);
   EXPECT_EQ(C.residual[0], 0.3);
   EXPECT_EQ(C.residual[1], -0.4);
   EXPECT_DOUBLE_EQ(C.residual[2], scale.normal * -0.2);
@@ -225,8 +233,8 @@ TEST(ContactCondition, OnTheAxisTangentialTractionVanishes)
 TEST(ContactCondition, NotANumberIsNotSilentlyOpen)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto C = contact_condition<double>(unpack<double>(pack(Vector3<double>::Zero(), nan, Vector3<double>::Zero())),
-                                           scale, mixed);
+  const auto C = contact_condition<double>(
+      unpack<double>(pack(Vector3<double>::Zero(), nan, Vector3<double>::Zero())), scale, mixed);
   EXPECT_TRUE(C.residual.hasNaN());
 }
 

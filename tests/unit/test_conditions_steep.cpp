@@ -1,5 +1,5 @@
-/// Contact conditions of laws that are not smooth at v = 0 or p = 0: exact zeros, derivatives, rest, Newton's method
-/// over decades.
+/// Contact conditions of laws that are not smooth at v = 0 or p = 0: exact zeros, derivatives, rest, Newton's
+/// method over decades.
 #include "tribogel/contact/condition_slope.hpp"
 #include "tribogel/friction/polynomial.hpp"
 
@@ -33,7 +33,8 @@ template <class T> ContactPoint<T> unpack(const Eigen::Matrix<T, 11, 1> &x)
   return {x.template head<3>(), x.template segment<3>(7), x[3], x.template segment<3>(4), x[10]};
 }
 
-Vector11 pack(const Vector3<double> &multiplier, double gap, const Vector3<double> &velocity, double area_ratio)
+Vector11 pack(const Vector3<double> &multiplier, double gap, const Vector3<double> &velocity,
+              double area_ratio)
 {
   Vector11 x;
   x.head<3>() = multiplier; // the comma initialiser makes g++ 12 warn of array bounds with AVX-512
@@ -79,7 +80,8 @@ TEST(SteepCondition, IsZeroWhereTheLawHoldsAndOnlyThere)
             const Law law = law_of(exponents, a, v, p, strength * scale.tangential * v);
             const double ratio = a == 1 ? 1 : J; // a law linear in p does not see the area
             const double tau = law.coefficient(v, p / ratio) * p;
-            if (tau > 1e3 * p) continue; // p, a difference of components of the multiplier, would be lost in round-off
+            if (tau > 1e3 * p)
+              continue; // p, a difference of components of the multiplier, would be lost in round-off
             const Vector3<double> direction = tangential(0.6, 0.8);
             const auto C = condition(pack(-p * normal - tau * direction, 0, v * direction, J), law);
             EXPECT_EQ(C.status, ContactStatus::slip);
@@ -105,7 +107,8 @@ TEST(SteepCondition, DerivativesAgreeWithDifferences)
           for (int j = 0; j < 11; ++j) {
             const auto moved = [&](double by) { return condition(x + by * Vector11::Unit(j), law).residual; };
             const double h = 1e-3;
-            const Vector3<double> difference = (8 * (moved(h) - moved(-h)) - (moved(2 * h) - moved(-2 * h))) / (12 * h);
+            const Vector3<double> difference =
+                (8 * (moved(h) - moved(-h)) - (moved(2 * h) - moved(-2 * h))) / (12 * h);
             EXPECT_LT((J.col(j) - difference).norm(), 1e-8 * J.norm()) << "column " << j << ", a " << a;
           }
           if (strength <= 1) { // more holds the node, where the area does not matter
@@ -125,7 +128,8 @@ TEST(SteepCondition, LinearLawsDoNotSeeTheArea)
   EXPECT_EQ(condition(x, law).residual, condition(y, law).residual);
 }
 
-/// At rest the rows are regular, and the derivative is that of the states nearby: nothing is smoothed, nothing jumps.
+/// At rest the rows are regular, and the derivative is that of the states nearby: nothing is smoothed,
+/// nothing jumps.
 TEST(SteepCondition, IsContinuouslyDifferentiableAtRest)
 {
   for (const auto &exponents : exponent_lists)
@@ -156,8 +160,8 @@ TEST(SteepCondition, IsContinuouslyDifferentiableAtRest)
   EXPECT_EQ(unloaded(1, 1), 1);
 }
 
-/// In a steady state the velocity is the plates' (c_T infinite): the rows hold the law, they are linear in the
-/// multiplier, and at rest, where nothing drags, they say that there is no traction.
+/// In a steady state the velocity is the plates' (c_T infinite): the rows hold the law, they are linear in
+/// the multiplier, and at rest, where nothing drags, they say that there is no traction.
 TEST(SteepCondition, AtAGivenVelocityIsTheLaw)
 {
   const ContactScale given{scale.normal, std::numeric_limits<double>::infinity()};
@@ -165,8 +169,12 @@ TEST(SteepCondition, AtAGivenVelocityIsTheLaw)
   for (const auto &exponents : exponent_lists)
     for (const double a : pressure_exponents) {
       const Law law = law_of(exponents, a, 1.1, p, 0.31);
-      const auto at = [&](const Vector11 &x) { return contact_condition<double>(unpack<double>(x), given, law); };
-      const auto slope = [&](const Vector11 &x) { return condition_slope<11>(unpack<double>(x), given, law); };
+      const auto at = [&](const Vector11 &x) {
+        return contact_condition<double>(unpack<double>(x), given, law);
+      };
+      const auto slope = [&](const Vector11 &x) {
+        return condition_slope<11>(unpack<double>(x), given, law);
+      };
       for (const double v : {1e-12, 0.02, 30.0}) {
         const Vector3<double> direction = tangential(0.6, 0.8);
         const double tau = law.coefficient(v, p / (a == 1 ? 1 : J)) * p;
@@ -174,14 +182,17 @@ TEST(SteepCondition, AtAGivenVelocityIsTheLaw)
         EXPECT_EQ(at(x).status, ContactStatus::slip);
         EXPECT_LT(at(x).residual.norm(), 64 * eps * (tau + p));
         const Vector3<double> more = tangential(0.4, -0.3);
-        EXPECT_LT((at(pack(-p * normal - tau * direction + more, 0, v * direction, J)).residual - more).norm(),
-                  64 * eps * (tau + p));
+        EXPECT_LT(
+            (at(pack(-p * normal - tau * direction + more, 0, v * direction, J)).residual - more).norm(),
+            64 * eps * (tau + p));
         const auto derivative = slope(x);
         for (int j = 0; j < 11; ++j) {
           const double h = j >= 4 && j < 7 ? 1e-3 * v : 1e-5;
           const auto moved = [&](double by) { return at(x + by * Vector11::Unit(j)).residual; };
-          const Vector3<double> difference = (8 * (moved(h) - moved(-h)) - (moved(2 * h) - moved(-2 * h))) / (12 * h);
-          EXPECT_LT((derivative.col(j) - difference).norm(), 1e-7 * derivative.col(j).norm() + 1e-9) << "column " << j;
+          const Vector3<double> difference =
+              (8 * (moved(h) - moved(-h)) - (moved(2 * h) - moved(-2 * h))) / (12 * h);
+          EXPECT_LT((derivative.col(j) - difference).norm(), 1e-7 * derivative.col(j).norm() + 1e-9)
+              << "column " << j;
         }
       }
       const Vector3<double> traction = tangential(0.2, -0.5);
@@ -195,8 +206,9 @@ TEST(SteepCondition, AtAGivenVelocityIsTheLaw)
     }
 }
 
-/// A node on springs, u and lambda unknown, which is given a velocity at once; its anchor comes down by p / k_n, so
-/// that the pressure is p in the end. At the start it is at rest, unloaded (first touch) or under p. 200: failed.
+/// A node on springs, u and lambda unknown, which is given a velocity at once; its anchor comes down by p /
+/// k_n, so that the pressure is p in the end. At the start it is at rest, unloaded (first touch) or under p.
+/// 200: failed.
 struct NodeOnSprings {
   double k, k_n, shift, c_N, c_T, p;
   Vector3<double> V;
@@ -254,21 +266,24 @@ TEST(SteepCondition, NewtonConvergesFromRestOverDecades)
       int most = 0, sum = 0;
       constexpr int trials = 100;
       for (int trial = 0; trial < trials; ++trial) {
-        const double speed = decades(-12, 3), p = decades(-12, 1), shift = decades(-3, 3), angle = decades(-2, 0.1);
+        const double speed = decades(-12, 3), p = decades(-12, 1), shift = decades(-3, 3),
+                     angle = decades(-2, 0.1);
         const double K = p * decades(-5, 5) / speed; // of the spring, per velocity
         const double k = K * shift, k_n = k * decades(-0.5, 0.5), ratio = decades(-1, std::log10(2.0));
         Law law{{}, exponents, a, 1e-5};
         for (const double m : exponents)
           law.coefficients.push_back(decades(-5, 5) * K * speed / (law.load(p) * std::pow(speed, m)));
         const Vector3<double> V(speed * std::cos(angle), -speed * std::sin(angle), 0);
-        const NodeOnSprings node{k, k_n, shift, ratio * k_n, ratio * K, p, V, meeting_traction(law, K, speed, p)};
+        const NodeOnSprings node{k,         k_n, shift, ratio * k_n,
+                                 ratio * K, p,   V,     meeting_traction(law, K, speed, p)};
         for (const bool first_touch : {false, true}) {
           const int iterations = node.newton_iterations(law, first_touch);
           most = std::max(most, iterations);
           sum += iterations;
         }
       }
-      EXPECT_LE(most, 12) << "exponents from " << exponents[0] << ", " << exponents.size() << " of them, a " << a;
+      EXPECT_LE(most, 12) << "exponents from " << exponents[0] << ", " << exponents.size() << " of them, a "
+                          << a;
       EXPECT_LE(sum, 5 * 2 * trials);
     }
 }

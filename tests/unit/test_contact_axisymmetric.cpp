@@ -1,5 +1,5 @@
-/// The axisymmetric contact operator: patch test, co-rotation, balances, torque under uniform pressure, Jacobian,
-/// units.
+/// The axisymmetric contact operator: patch test, co-rotation, balances, torque under uniform pressure,
+/// Jacobian, units.
 #include "contact_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -26,9 +26,10 @@ ContactScene wavy(int order, double inner_radius, double master_radius, unsigned
   const auto wave = [](double Z, double amplitude, double frequency) {
     return [=](double R) { return PlanePoint<double>{R, Z + amplitude * std::cos(frequency * R)}; };
   };
-  ContactScene scene(curve(order, breaks(7, inner_radius, 10, 0.6, seed), wave(0.02, 0.15, 0.5)),
-                     curve(order, breaks(9, 0.8 * inner_radius, master_radius, 0.6, seed + 10), wave(0, 0.2, 0.45)),
-                     {.order = order, .twist_length = 7.3, .softer_modulus = 1.7});
+  ContactScene scene(
+      curve(order, breaks(7, inner_radius, 10, 0.6, seed), wave(0.02, 0.15, 0.5)),
+      curve(order, breaks(9, 0.8 * inner_radius, master_radius, 0.6, seed + 10), wave(0, 0.2, 0.45)),
+      {.order = order, .twist_length = 7.3, .softer_modulus = 1.7});
   scene.disturb(0.05, 0.3, 0.9, 0.2, seed + 20);
   scene.state.shift = 3.1;
   scene.state.stick_rate = 2.7;
@@ -38,8 +39,8 @@ ContactScene wavy(int order, double inner_radius, double master_radius, unsigned
   return scene;
 }
 
-/// int N_b 2 pi R dR of every node of a flat curve: linear h (2 R_b + R_other) / 6, quadratic h (R_in, R_out, 2 (R_in +
-/// R_out)) / 6.
+/// int N_b 2 pi R dR of every node of a flat curve: linear h (2 R_b + R_other) / 6, quadratic h (R_in, R_out,
+/// 2 (R_in + R_out)) / 6.
 std::vector<double> nodal_areas(const SurfaceReference &surface, int order)
 {
   std::vector<double> area(surface.X.size());
@@ -64,15 +65,18 @@ TEST(AxisymmetricContact, UniformPressurePassesThePatchTest)
       for (auto &lambda : scene.state.multiplier) lambda = {0, 0, p}; // up, on the upper body
       const auto out = assemble(scene, pairs_of_scene(scene), mixed, false);
       EXPECT_EQ(out.report.status, MortarStatus::ok);
-      const auto slave = nodal_areas(scene.geometry.slave, order), master = nodal_areas(scene.geometry.master, order);
+      const auto slave = nodal_areas(scene.geometry.slave, order),
+                 master = nodal_areas(scene.geometry.master, order);
       const double whole = pi * 100 * p;
-      for (int a = 0; a < scene.slave_nodes(); ++a) EXPECT_NEAR(out.residual[3 * a + 2], -p * slave[a], 1e-14 * whole);
+      for (int a = 0; a < scene.slave_nodes(); ++a)
+        EXPECT_NEAR(out.residual[3 * a + 2], -p * slave[a], 1e-14 * whole);
       for (int m = 0; m < scene.master_nodes(); ++m)
         EXPECT_NEAR(out.residual[3 * (scene.slave_nodes() + m) + 2], p * master[m], 1e-14 * whole);
       // the surfaces coincide and rest: the conditions hold as well, where a multiplier is carried
       for (int a = 0; a < scene.slave_nodes(); ++a) {
         if (!scene.geometry.nodes[a].carries) continue;
-        EXPECT_LT(out.residual.segment<3>(3 * (scene.slave_nodes() + scene.master_nodes() + a)).norm(), 1e-13 * whole);
+        EXPECT_LT(out.residual.segment<3>(3 * (scene.slave_nodes() + scene.master_nodes() + a)).norm(),
+                  1e-13 * whole);
       }
     }
 }
@@ -83,15 +87,16 @@ TEST(AxisymmetricContact, InclinedInterfacePassesThePatchTestUnderHydrostaticStr
   const double p = 0.83, slope = 0.31;
   for (int order : {1, 2}) {
     const auto cone = [&](double R) { return PlanePoint<double>{R, slope * R}; };
-    ContactScene scene(curve(order, breaks(6, 2, 10, 0.7, 3), cone), curve(order, breaks(9, 2, 10, 0.7, 4), cone),
-                       {.order = order});
+    ContactScene scene(curve(order, breaks(6, 2, 10, 0.7, 3), cone),
+                       curve(order, breaks(9, 2, 10, 0.7, 4), cone), {.order = order});
     const Vector3<double> n = Vector3<double>(slope, 0, -1).normalized();
     for (auto &lambda : scene.state.multiplier) lambda = -p * n;
     const auto out = assemble(scene, pairs_of_scene(scene), mixed, false);
     const auto master = nodal_areas(scene.geometry.master, order);
     const double stretch = std::hypot(1, slope);
     for (int m = 0; m < scene.master_nodes(); ++m)
-      EXPECT_LT((out.residual.segment<3>(3 * (scene.slave_nodes() + m)) + p * stretch * master[m] * n).norm(), 1e-12);
+      EXPECT_LT((out.residual.segment<3>(3 * (scene.slave_nodes() + m)) + p * stretch * master[m] * n).norm(),
+                1e-12);
   }
 }
 
@@ -155,8 +160,10 @@ TEST(AxisymmetricContact, ForceAndTorqueBalance)
       }
 }
 
-/// Torque of the operator when the nodes slide at omega r under p: every node's traction solves its condition.
-double sliding_torque(int order, int facets, double inner, double outer, const Law &law, double p, double omega)
+/// Torque of the operator when the nodes slide at omega r under p: every node's traction solves its
+/// condition.
+double sliding_torque(int order, int facets, double inner, double outer, const Law &law, double p,
+                      double omega)
 {
   ContactScene scene(flat(order, breaks(facets, inner, outer, 0.3, 5), 0),
                      flat(order, breaks(facets + 3, inner, outer), 0),
@@ -190,8 +197,8 @@ TEST(AxisymmetricContact, TorqueUnderUniformPressureConverges)
     double exact = 0;
     for (int i = 0; i < 4; ++i) {
       const double m = law.exponents[i];
-      exact += 2 * pi * p * law.coefficients[i] * std::pow(omega, m) * (std::pow(10, m + 3) - std::pow(inner, m + 3)) /
-               (m + 3);
+      exact += 2 * pi * p * law.coefficients[i] * std::pow(omega, m) *
+               (std::pow(10, m + 3) - std::pow(inner, m + 3)) / (m + 3);
     }
     for (int order : {1, 2}) {
       double last = 0, error = 0, rate = 0;
@@ -203,12 +210,14 @@ TEST(AxisymmetricContact, TorqueUnderUniformPressureConverges)
       EXPECT_GT(rate, order == 1 ? 1.9 : 3.5);
       EXPECT_LT(error, order == 1 ? 3e-4 : 2e-7);
       RecordProperty("rate_" + std::to_string(order) + (inner > 0 ? "_ring" : "_disc"), std::to_string(rate));
-      RecordProperty("error_" + std::to_string(order) + (inner > 0 ? "_ring" : "_disc"), std::to_string(error * 1e9));
+      RecordProperty("error_" + std::to_string(order) + (inner > 0 ? "_ring" : "_disc"),
+                     std::to_string(error * 1e9));
     }
   }
   // exact for a constant coefficient (order 1) and for one linear in v (order 2)
   EXPECT_NEAR(sliding_torque(1, 5, 0, 10, {{0.3}, {0}}, p, omega) / (2 * pi * p * 0.3 * 1000 / 3), 1, 1e-14);
-  EXPECT_NEAR(sliding_torque(2, 5, 0, 10, {{0.21}, {1}}, p, omega) / (2 * pi * p * 0.21 * omega * 1e4 / 4), 1, 1e-14);
+  EXPECT_NEAR(sliding_torque(2, 5, 0, 10, {{0.21}, {1}}, p, omega) / (2 * pi * p * 0.21 * omega * 1e4 / 4), 1,
+              1e-14);
 }
 
 struct Case {
@@ -239,7 +248,8 @@ TEST(AxisymmetricContact, JacobianIsExactInEveryState)
   for (int order : {1, 2})
     for (const Case &now : cases)
       for (unsigned seed = 1; seed <= 2; ++seed) {
-        SCOPED_TRACE(std::string(now.name) + ", order " + std::to_string(order) + ", seed " + std::to_string(seed));
+        SCOPED_TRACE(std::string(now.name) + ", order " + std::to_string(order) + ", seed " +
+                     std::to_string(seed));
         ContactScene scene = wavy(order, now.inner_radius, now.master_radius, seed);
         scene.state.slave.travel = now.travel;
         for (auto *surface : {&scene.state.slave, &scene.state.master}) {
@@ -261,14 +271,16 @@ TEST(AxisymmetricContact, JacobianIsExactInEveryState)
           const auto dual = whole_residual(scene, moving(scene, Eigen::VectorXd::Unit(n, j)), pairs, now.law);
           const Eigen::VectorXd column = derivative(dual, 0);
           const double scale = std::max(column.lpNorm<Eigen::Infinity>(), 1e-3);
-          worst_exact = std::max(worst_exact, (column - out.jacobian.col(j)).lpNorm<Eigen::Infinity>() / scale);
+          worst_exact =
+              std::max(worst_exact, (column - out.jacobian.col(j)).lpNorm<Eigen::Infinity>() / scale);
         }
 
         std::mt19937 random(seed);
         std::uniform_real_distribution<double> number(-1, 1);
         for (int trial = 0; trial < 5; ++trial) {
           Eigen::VectorXd direction = Eigen::VectorXd::NullaryExpr(n, [&] { return number(random); });
-          if (now.inner_radius == 0) direction[0] = direction[3 * scene.slave_nodes()] = 0; // the axis stays an axis
+          if (now.inner_radius == 0)
+            direction[0] = direction[3 * scene.slave_nodes()] = 0; // the axis stays an axis
           const double h = 1e-5;
           const auto moved = [&](double by) {
             ContactScene other = scene;
@@ -305,7 +317,8 @@ TEST(AxisymmetricContact, ChangeOfUnitsScalesExactly)
     SurfaceReference slave = scene.geometry.slave, master = scene.geometry.master;
     for (auto *surface : {&slave, &master})
       for (auto &X : surface->X) X = {length * X.r, length * X.z};
-    ContactScene other(slave, master, {.order = order, .twist_length = 7.3 * length, .softer_modulus = 1.7 * modulus});
+    ContactScene other(slave, master,
+                       {.order = order, .twist_length = 7.3 * length, .softer_modulus = 1.7 * modulus});
     other.state = scene.state;
     for (auto *surface : {&other.state.slave, &other.state.master}) {
       for (auto &u : surface->u) u *= length;
@@ -348,7 +361,8 @@ TEST(AxisymmetricContact, AnySplitOfTheNodesGivesTheSameBlocks)
         const NodeBlock pattern = part.pattern(a, pairs);
         EXPECT_EQ(pattern.slave_nodes, from_part.slave_nodes);
         for (int m : from_part.master_nodes)
-          EXPECT_NE(std::find(pattern.master_nodes.begin(), pattern.master_nodes.end(), m), pattern.master_nodes.end());
+          EXPECT_NE(std::find(pattern.master_nodes.begin(), pattern.master_nodes.end(), m),
+                    pattern.master_nodes.end());
       }
     }
     EXPECT_DOUBLE_EQ(overhang, report.overhang);
@@ -371,7 +385,8 @@ TEST(AxisymmetricContact, NodesWithoutMultiplierAreHeldAtZero)
     contact.node(a, mixed, block);
     EXPECT_TRUE(block.master_nodes.empty());
     EXPECT_EQ(block.residual.head<3>().norm(), 0);
-    EXPECT_EQ(Vector3<double>(block.residual.tail<3>()), scene.geometry.nodes[a].extent * scene.state.multiplier[a]);
+    EXPECT_EQ(Vector3<double>(block.residual.tail<3>()),
+              scene.geometry.nodes[a].extent * scene.state.multiplier[a]);
     EXPECT_GT(block.jacobian(3, 3), 0);
     EXPECT_TRUE(std::isnan(contact.result(a, mixed).pressure));
     EXPECT_EQ(contact.resultant(a), std::pair(0.0, 0.0));
@@ -381,7 +396,8 @@ TEST(AxisymmetricContact, NodesWithoutMultiplierAreHeldAtZero)
 TEST(AxisymmetricContact, CauchyPressureFollowsTheCurrentArea)
 {
   for (int order : {1, 2}) {
-    ContactScene scene(flat(order, breaks(6, 0, 10, 0.7, 3), 0), flat(order, breaks(9, 0, 12.5), 0), {.order = order});
+    ContactScene scene(flat(order, breaks(6, 0, 10, 0.7, 3), 0), flat(order, breaks(9, 0, 12.5), 0),
+                       {.order = order});
     const double p = 0.83, stretch = 1.13;
     for (int a = 0; a < scene.slave_nodes(); ++a) {
       scene.state.slave.u[a][0] = (stretch - 1) * scene.geometry.slave.X[a].r;
@@ -404,7 +420,8 @@ TEST(AxisymmetricContact, CauchyPressureFollowsTheCurrentArea)
 TEST(AxisymmetricContact, TheFirstStateHasARegularConditionBlock)
 {
   for (int order : {1, 2}) {
-    ContactScene scene(flat(order, breaks(6, 0, 10), 0), flat(order, breaks(9, 0, 12.5), 0), {.order = order});
+    ContactScene scene(flat(order, breaks(6, 0, 10), 0), flat(order, breaks(9, 0, 12.5), 0),
+                       {.order = order});
     const auto out = assemble(scene, pairs_of_scene(scene), mixed, true);
     EXPECT_EQ(out.residual.norm(), 0);
     EXPECT_TRUE(out.jacobian.allFinite());

@@ -1,5 +1,5 @@
-/// A file of numbers and texts: what is read is what was written, bit for bit; what is cut short, damaged or of another
-/// kind is not taken; a file that is there survives a failure.
+/// A file of numbers and texts: what is read is what was written, bit for bit; what is cut short, damaged or
+/// of another kind is not taken; a file that is there survives a failure.
 #include "support/data_file.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,8 @@ namespace
 class data_file : public ::testing::Test
 {
 protected:
-  data_file() : directory(std::filesystem::temp_directory_path() / ("tribogel-data-" + std::to_string(getpid())))
+  data_file()
+      : directory(std::filesystem::temp_directory_path() / ("tribogel-data-" + std::to_string(getpid())))
   {
     std::filesystem::create_directories(directory);
     path = directory / "some.h5";

@@ -1,4 +1,5 @@
-/// The multiplier's dual basis: biorthogonal, adds up to one, and the vanishing axis weight of quadratic facets.
+/// The multiplier's dual basis: biorthogonal, adds up to one, and the vanishing axis weight of quadratic
+/// facets.
 #include "tribogel/contact/line_facet.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,8 @@ template <int nodes> Eigen::Matrix<double, nodes, nodes> coupling(const FacetMea
     const auto N = facet_shape<nodes>(rule.point[q]).N;
     const auto psi = facet.basis(N);
     for (int a = 0; a < nodes; ++a)
-      for (int b = 0; b < nodes; ++b) integral(a, b) += rule.weight[q] * psi[a] * N[b] * facet.weight(N, rule.point[q]);
+      for (int b = 0; b < nodes; ++b)
+        integral(a, b) += rule.weight[q] * psi[a] * N[b] * facet.weight(N, rule.point[q]);
   }
   return integral;
 }
@@ -52,8 +54,10 @@ TEST(DualBasis, QuadraticAxisNodeHasExactlyNoWeight)
     const auto facet = facet_measure<3>({{{0, -0.3}, {h, -0.3}, {0.5 * h, -0.3}}});
     EXPECT_EQ(facet.basis.D[0], 0);
     for (int b = 0; b < 3; ++b) EXPECT_EQ(facet.basis.A(0, b), 0);
-    EXPECT_NEAR(facet.basis.D[1], std::numbers::pi / 3 * h * h, 1e-15 * h * h);     // 2 pi h R / 6 at the outer end
-    EXPECT_NEAR(facet.basis.D[2], 2 * std::numbers::pi / 3 * h * h, 1e-15 * h * h); // 2 pi h (0 + h) / 3 at midside
+    EXPECT_NEAR(facet.basis.D[1], std::numbers::pi / 3 * h * h,
+                1e-15 * h * h); // 2 pi h R / 6 at the outer end
+    EXPECT_NEAR(facet.basis.D[2], 2 * std::numbers::pi / 3 * h * h,
+                1e-15 * h * h); // 2 pi h (0 + h) / 3 at midside
     EXPECT_GT(facet.extent[0], 0);
   }
 }

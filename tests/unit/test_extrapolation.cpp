@@ -72,7 +72,8 @@ Extrapolation halved(std::initializer_list<double> values, double scale = 0)
 
 TEST(Extrapolation, DoesNotTrustThreeLevelsOutOfOrder)
 {
-  const Extrapolation back = halved({5.0, 5.4, 5.3}), slow = halved({5.0, 5.1, 5.2}), away = halved({5.0, 5.1, 5.3});
+  const Extrapolation back = halved({5.0, 5.4, 5.3}), slow = halved({5.0, 5.1, 5.2}),
+                      away = halved({5.0, 5.1, 5.3});
   EXPECT_EQ(back.verdict, Convergence::oscillates);
   EXPECT_NEAR(back.error, 1.2, 1e-12);
   EXPECT_EQ(slow.verdict, Convergence::slow);
@@ -139,7 +140,8 @@ TEST(Extrapolation, AgreesWithTheTools)
   EXPECT_NEAR(torque.order, 1.0, 0.05);
 }
 
-/// The paper scene, order 2, 6 to 24 elements (steady N, limit 290.4435): meshes of whole numbers of edges scatter.
+/// The paper scene, order 2, 6 to 24 elements (steady N, limit 290.4435): meshes of whole numbers of edges
+/// scatter.
 TEST(Extrapolation, CoversTheLimitOfTheRheometer)
 {
   const std::vector<Level> levels{

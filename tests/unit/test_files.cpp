@@ -1,5 +1,5 @@
-/// Files that cannot grow, by a limit of the system that is lifted again: nothing is written in part, the reason is the
-/// system's, and what was there stays.
+/// Files that cannot grow, by a limit of the system that is lifted again: nothing is written in part, the
+/// reason is the system's, and what was there stays.
 #include "support/data_file.hpp"
 #include "support/files.hpp"
 
@@ -20,7 +20,8 @@ namespace tribogel
 namespace
 {
 
-/// While it lives, no file of this process grows beyond so many bytes; a write that tries fails and kills nobody.
+/// While it lives, no file of this process grows beyond so many bytes; a write that tries fails and kills
+/// nobody.
 class SizeLimit
 {
 public:
@@ -104,7 +105,8 @@ TEST_F(files, GoesOnBehindWhatCounts)
   EXPECT_EQ(text(), "0,1\n1,2\n2,3\n");
   EXPECT_NE(file.resume(path, 13), "") << "it has 12 bytes";
   EXPECT_EQ(text().size(), 12u);
-  EXPECT_EQ(file.resume(directory / "none.csv", 0), (directory / "none.csv").string() + ": " + std::strerror(ENOENT));
+  EXPECT_EQ(file.resume(directory / "none.csv", 0),
+            (directory / "none.csv").string() + ": " + std::strerror(ENOENT));
 }
 
 TEST_F(files, NoticesWhatOthersDoToIt)

@@ -91,7 +91,8 @@ PolynomialFriction<double> every_kind(double pressure_exponent)
 
 double mu_of_every_kind(double v)
 {
-  return 0.31 + 0.47 * std::sqrt(std::sqrt(v)) + 0.23 * std::sqrt(v) + 0.047 * v + 0.013 * v * v - 1e-9 * v * v * v;
+  return 0.31 + 0.47 * std::sqrt(std::sqrt(v)) + 0.23 * std::sqrt(v) + 0.047 * v + 0.013 * v * v -
+         1e-9 * v * v * v;
 }
 
 template <class Check> void over_decades(const Check &check)
@@ -120,7 +121,8 @@ TEST(PolynomialFriction, WithoutAnExponentBelowOneNothingIsSteep)
 {
   EXPECT_FALSE(mixed.has_steep_part());
   EXPECT_EQ(mixed.steep_stress(0.7, 1.3), 0);
-  EXPECT_FALSE((PolynomialFriction<double>{{0.1, 0, 0.2}, {0, 0.5, 1}}).has_steep_part()); // its coefficient is 0
+  EXPECT_FALSE(
+      (PolynomialFriction<double>{{0.1, 0, 0.2}, {0, 0.5, 1}}).has_steep_part()); // its coefficient is 0
   EXPECT_TRUE(every_kind(1).has_steep_part());
   EXPECT_LT(every_kind(1).sliding(0.7, 1.3).over_v, 0); // what weakens stays in the smooth part
 }
@@ -175,7 +177,8 @@ TEST(PolynomialFriction, SteepSpeedDerivativesAgreeWithDifferences)
           x[i] *= 1 + by;
           return law.steep_speed(x[0], x[1], x[2]);
         };
-        const double h = 1e-3, slope = (8 * (moved(h) - moved(-h)) - (moved(2 * h) - moved(-2 * h))) / (12 * h);
+        const double h = 1e-3,
+                     slope = (8 * (moved(h) - moved(-h)) - (moved(2 * h) - moved(-2 * h))) / (12 * h);
         EXPECT_NEAR(v.d[i] * at[i] / v.v, slope / v.v, 1e-9) << stress << ' ' << p << ' ' << i;
       }
     });
@@ -263,7 +266,8 @@ TEST(Rheometer, ApparentCoefficientIsTheAreaMeanUnderUniformPressure)
     area_mean += law.coefficients[i] * std::pow(omega * R, law.exponents[i]) * 2 / (law.exponents[i] + 2);
   const double torque = uniform_pressure_torque(law, omega * R) * N * R;
   EXPECT_NEAR(apparent_coefficient(law, torque, N, R, omega), area_mean, 1e-15);
-  EXPECT_NEAR(apparent_coefficient(law, -torque, N, R, -omega), area_mean, 1e-15); // the other sense of rotation
+  EXPECT_NEAR(apparent_coefficient(law, -torque, N, R, -omega), area_mean,
+              1e-15); // the other sense of rotation
 }
 
 /// Midpoint sums over rings; what they leave out falls as the square of a ring's width.
@@ -286,7 +290,8 @@ TEST(Rheometer, ViscousForceAndTorqueAreTheIntegralsOfEquations21And22)
   EXPECT_NEAR(viscous_friction_force(c, omega, R) / force, 1, 1e-8);
   EXPECT_NEAR(viscous_torque(c, omega, R) / torque, 1, 1e-8);
   EXPECT_EQ(viscous_torque(c, -omega, R), viscous_torque(c, omega, R));
-  EXPECT_NEAR(gong_friction_force(viscous_torque(c, omega, R), R) / viscous_friction_force(c, omega, R), 1, 1e-15);
+  EXPECT_NEAR(gong_friction_force(viscous_torque(c, omega, R), R) / viscous_friction_force(c, omega, R), 1,
+              1e-15);
   EXPECT_NEAR(gong_coefficient(torque, 4.7, R) / (force / 4.7), 1, 1e-8);
 }
 
@@ -312,7 +317,8 @@ TEST(Rheometer, ApparentCoefficientIsEquation311WithItsFactorRestored)
 TEST(Rheometer, PaperTable2TorquesGiveBackTheirMeanCoefficients)
 {
   // T / (N R) of the three laws of Table 2 at 0.01, 0.1 and 1 rad/s, R = 10 mm, four digits
-  const PolynomialFriction<double> cases[] = {{{2e-4}, {1}}, {{2.6e-4, 1e-5}, {0, 2}}, {{2.2e-4, 3.26e-5}, {0, 1}}};
+  const PolynomialFriction<double> cases[] = {
+      {{2e-4}, {1}}, {{2.6e-4, 1e-5}, {0, 2}}, {{2.2e-4, 3.26e-5}, {0, 1}}};
   const double torque[3][3] = {
       {1.00e-5, 1.00e-4, 1.00e-3}, {1.734e-4, 1.773e-4, 5.733e-4}, {1.483e-4, 1.630e-4, 3.097e-4}};
   for (int law = 0; law < 3; ++law)
@@ -323,7 +329,8 @@ TEST(Rheometer, PaperTable2TorquesGiveBackTheirMeanCoefficients)
         const double m = cases[law].exponents[i];
         area_mean += cases[law].coefficients[i] * std::pow(10 * rate, m) * 2 / (m + 2);
       }
-      EXPECT_NEAR(apparent_coefficient(cases[law], torque[law][phase] * N * 10, N, 10, rate) / area_mean, 1, 4e-4);
+      EXPECT_NEAR(apparent_coefficient(cases[law], torque[law][phase] * N * 10, N, 10, rate) / area_mean, 1,
+                  4e-4);
     }
 }
 
@@ -357,8 +364,9 @@ TEST(Rheometer, MeansOfPowersOverAFace)
   }
 }
 
-/// Under uniform pressure the torque of a ring is T/N = sum b_m omega^m <r^(m + 1)> (C12), and the coefficient that it
-/// gives is the area mean of mu: of a constant one that constant, where the disc's formula would say 0.153 for 0.1.
+/// Under uniform pressure the torque of a ring is T/N = sum b_m omega^m <r^(m + 1)> (C12), and the
+/// coefficient that it gives is the area mean of mu: of a constant one that constant, where the disc's
+/// formula would say 0.153 for 0.1.
 TEST(Rheometer, CoefficientsOfARing)
 {
   const double A = 6, R = 10, N = 4.7, omega = 0.21;
@@ -384,9 +392,11 @@ TEST(Rheometer, UndefinedValuesAreNaN)
   const PolynomialFriction<double> viscous{{0.2}, {1}}, coulomb{{0.2}, {0}};
   EXPECT_TRUE(std::isnan(gong_coefficient(1.3, 0, 9.3)));
   EXPECT_TRUE(std::isnan(apparent_coefficient(viscous, 1.3, 0, 9.3, 0.7)));
-  EXPECT_TRUE(std::isnan(apparent_coefficient(viscous, 0, 2.1, 9.3, 0))); // at rest a viscous law says nothing
+  EXPECT_TRUE(
+      std::isnan(apparent_coefficient(viscous, 0, 2.1, 9.3, 0))); // at rest a viscous law says nothing
   EXPECT_TRUE(std::isnan(apparent_coefficient({}, 1.3, 2.1, 9.3, 0.7)));
-  EXPECT_TRUE(std::isnan(apparent_coefficient({{0.2}, {1}, 0.7}, 1.3, 2.1, 9.3, 0.7))); // (3.13) needs tau = mu p
+  EXPECT_TRUE(
+      std::isnan(apparent_coefficient({{0.2}, {1}, 0.7}, 1.3, 2.1, 9.3, 0.7))); // (3.13) needs tau = mu p
   EXPECT_NEAR(apparent_coefficient(coulomb, 1.3, 2.1, 9.3, 0), 1.5 * 1.3 / (2.1 * 9.3), 1e-16);
 }
 

@@ -79,7 +79,8 @@ double error_of(const TouchingNode &touch, std::mt19937 &random)
 
 } // namespace
 
-/// Weights of any size: products like D^-1 D are one to round-off only, and which do depends on the last digits.
+/// Weights of any size: products like D^-1 D are one to round-off only, and which do depends on the last
+/// digits.
 TEST(interface_node, LosesNothingOfItsOwn)
 {
   std::mt19937 random(7);

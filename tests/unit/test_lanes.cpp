@@ -1,6 +1,6 @@
-/// Lanes: their functions to the accuracy of those for one number, on both sides of every case within one vector; the
-/// bulk law by lanes against the law point by point, with the bounds of that against matrix functions in
-/// test_viscoelastic.cpp; no point depends on its neighbours.
+/// Lanes: their functions to the accuracy of those for one number, on both sides of every case within one
+/// vector; the bulk law by lanes against the law point by point, with the bounds of that against matrix
+/// functions in test_viscoelastic.cpp; no point depends on its neighbours.
 #include "material_samples.hpp"
 
 #include "tribogel/element/mean_dilatation.hpp"
@@ -72,7 +72,8 @@ TEST(Lanes, functions_keep_relative_accuracy_whatever_their_neighbours)
   expect_function(
       "x coth", numbers, [](Lanes x) { return x_coth(x); }, x_coth_of, 1e-15);
   expect_function(
-      "exp_minus_tangent", numbers, [](Lanes x) { return exp_minus_tangent(x); }, exp_minus_tangent_of, 2e-15);
+      "exp_minus_tangent", numbers, [](Lanes x) { return exp_minus_tangent(x); }, exp_minus_tangent_of,
+      2e-15);
   EXPECT_TRUE(all(x_coth(Lanes(0)) == Lanes(1)) && all(expm1(Lanes(0)) == Lanes(0)));
 }
 
@@ -103,8 +104,8 @@ struct Row {
   {
     after.assign(history.size(), 0);
     response.assign(F.size(), {});
-    return evaluate_points(law, static_cast<int>(F.size()), F.data(), history.data(), step, after.data(), true,
-                           response.data());
+    return evaluate_points(law, static_cast<int>(F.size()), F.data(), history.data(), step, after.data(),
+                           true, response.data());
   }
 };
 
@@ -122,8 +123,8 @@ Row row_of(const Viscoelastic<double> &material, std::size_t first, std::size_t 
   return row;
 }
 
-const std::vector<Viscoelastic<double>> materials = {samples::paper(), samples::odd(), samples::hyperelastic(),
-                                                     samples::quadratic()};
+const std::vector<Viscoelastic<double>> materials = {samples::paper(), samples::odd(),
+                                                     samples::hyperelastic(), samples::quadratic()};
 
 TEST(Lanes, the_law_is_that_of_single_points)
 {
@@ -147,8 +148,8 @@ TEST(Lanes, the_law_is_that_of_single_points)
     }
 }
 
-/// The bits of a point's answer are the same alone, in any lane and beside any others: results do not depend on how
-/// cells and points follow each other.
+/// The bits of a point's answer are the same alone, in any lane and beside any others: results do not depend
+/// on how cells and points follow each other.
 TEST(Lanes, no_point_depends_on_its_neighbours)
 {
   for (const auto &material : materials) {
@@ -163,7 +164,8 @@ TEST(Lanes, no_point_depends_on_its_neighbours)
         Row some = row_of(material, q - before, width);
         ASSERT_EQ(some.evaluate(lanes, {0.37}), PointStatus::ok);
         const Response<double> &a = together.response[q], &b = some.response[before];
-        EXPECT_TRUE(a.tau == b.tau && a.tangent == b.tangent && a.energy == b.energy && a.dissipated == b.dissipated)
+        EXPECT_TRUE(a.tau == b.tau && a.tangent == b.tangent && a.energy == b.energy &&
+                    a.dissipated == b.dissipated)
             << q;
         const double *const whole = together.after.data() + q * stride; // a spring has no history
         EXPECT_TRUE(std::equal(whole, whole + stride, some.after.data() + before * stride)) << q;
@@ -214,7 +216,8 @@ TEST(Lanes, a_cell_is_that_of_single_points)
   std::array<Element::CellType::Position, Element::nodes> X;
   Element::Vector<double> U;
   for (int a = 0; a < Element::nodes; ++a) {
-    X[a] = {5 + 0.5 * (a % 3) + 0.02 * a, 0.5 * (a / 3) - 0.01 * a}; // NOLINT(bugprone-integer-division): a row
+    X[a] = {5 + 0.5 * (a % 3) + 0.02 * a,
+            0.5 * (a / 3) - 0.01 * a}; // NOLINT(bugprone-integer-division): a row
     for (int i = 0; i < 3; ++i) U[3 * a + i] = 0.07 * std::sin(1.0 + 3 * a + i);
   }
   ASSERT_TRUE(cell.set(X));
@@ -224,11 +227,13 @@ TEST(Lanes, a_cell_is_that_of_single_points)
     history.insert(history.end(), one.begin(), one.end());
   }
   Element::Evaluation<double> lanes, single;
-  ASSERT_EQ(lanes.set(kinematics, cell, material.cast<Lanes>(), U, history.data(), {0.37}, after.data(), true),
-            PointStatus::ok);
+  ASSERT_EQ(
+      lanes.set(kinematics, cell, material.cast<Lanes>(), U, history.data(), {0.37}, after.data(), true),
+      PointStatus::ok);
   ASSERT_EQ(single.set(kinematics, cell, material, U, history.data(), {0.37}, after_single.data(), true),
             PointStatus::ok);
-  const auto R = Element::forces(kinematics, cell, lanes), R_single = Element::forces(kinematics, cell, single);
+  const auto R = Element::forces(kinematics, cell, lanes),
+             R_single = Element::forces(kinematics, cell, single);
   EXPECT_LT((R - R_single).norm(), 1e-13 * R_single.norm());
   Element::Matrix K, K_single;
   Element::tangent(kinematics, cell, lanes, K);

@@ -26,8 +26,9 @@ std::vector<MaxwellBranch<double>> branches()
 
 std::vector<Vector3<double>> trials()
 {
-  std::vector<Vector3<double>> list{{0, 0, 0},        {0.3, 0.3, -0.6},  {0.2, 0.2, 0.2},   {1e-9, 2e-9, -4e-9},
-                                    {1.1, -1.2, 0.4}, {2.5, -1.5, -0.3}, {-2.2, -1.9, 1.3}, {0.1, 0.1 + 1e-9, -0.3}};
+  std::vector<Vector3<double>> list{{0, 0, 0},           {0.3, 0.3, -0.6},       {0.2, 0.2, 0.2},
+                                    {1e-9, 2e-9, -4e-9}, {1.1, -1.2, 0.4},       {2.5, -1.5, -0.3},
+                                    {-2.2, -1.9, 1.3},   {0.1, 0.1 + 1e-9, -0.3}};
   for (int seed = 0; seed < 20; ++seed) list.push_back(1.3 * samples::noise(seed).col(1));
   return list;
 }
@@ -45,15 +46,16 @@ TEST(Maxwell, solves_the_flow_rule_for_steps_of_any_size)
         const Vector3<double> residual = (out.strain + step * flow - trial).array() + step * volumetric_flow;
         EXPECT_LE(residual.norm(), 2e-14 * (trial.norm() + step * (flow.norm() + std::abs(volumetric_flow))))
             << trial.transpose() << " step " << step;
-        const double dissipated =
-            step * (dev.squaredNorm() / (2 * branch.deviatoric_viscosity) + 3 * out.volumetric.mean * volumetric_flow);
+        const double dissipated = step * (dev.squaredNorm() / (2 * branch.deviatoric_viscosity) +
+                                          3 * out.volumetric.mean * volumetric_flow);
         EXPECT_NEAR(out.dissipated, dissipated, 1e-14 * dissipated);
         EXPECT_GE(out.dissipated, 0);
         EXPECT_GE(out.energy, 0);
       }
 }
 
-// Its mean stress falls below J = 1/2: there the flow may have no root, or one that no flow from J = 1 comes to.
+// Its mean stress falls below J = 1/2: there the flow may have no root, or one that no flow from J = 1 comes
+// to.
 TEST(Maxwell, the_quadratic_volumetric_law_solves_the_flow_rule_or_says_that_it_cannot)
 {
   const auto branch = samples::quadratic().branches[0];
@@ -62,8 +64,10 @@ TEST(Maxwell, the_quadratic_volumetric_law_solves_the_flow_rule_or_says_that_it_
     for (double step : {0.0, 1e-5, 0.3, 7.0, 1e3, 1e9}) {
       const auto out = branch.advance(Vector3<double>::Constant(theta / 3), step);
       ASSERT_EQ(out.status, PointStatus::ok) << theta << " step " << step;
-      const double rate = step / branch.volumetric_viscosity, J = std::exp(out.strain.sum()), mean = K * J * (J - 1);
-      EXPECT_NEAR(out.strain.sum() + rate * mean, theta, 3e-15 * (1 + rate * K) * (1 + std::abs(theta))) << step;
+      const double rate = step / branch.volumetric_viscosity, J = std::exp(out.strain.sum()),
+                   mean = K * J * (J - 1);
+      EXPECT_NEAR(out.strain.sum() + rate * mean, theta, 3e-15 * (1 + rate * K) * (1 + std::abs(theta)))
+          << step;
       EXPECT_NEAR(out.volumetric.mean, mean, 3e-15 * K * J * (1 + J)) << step;
     }
   EXPECT_EQ(branch.advance(Vector3<double>::Constant(-0.5), 1e-3).status, PointStatus::ok);

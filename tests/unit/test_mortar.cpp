@@ -20,12 +20,13 @@ struct Mortar {
   std::vector<FacetMortar<double>> facets;
 
   explicit Mortar(const ContactScene &scene)
-      : x(positions(scene.geometry.slave, scene.state.slave)), y(positions(scene.geometry.master, scene.state.master))
+      : x(positions(scene.geometry.slave, scene.state.slave)),
+        y(positions(scene.geometry.master, scene.state.master))
   {
     const ContactGeometry &geometry = scene.geometry;
     for (int a = 0; a < scene.slave_nodes(); ++a)
-      n.push_back(
-          nodal_normal<double>(geometry.slave_chain, a, geometry.nodes[a].on_axis, [&](int b) { return x[b]; }));
+      n.push_back(nodal_normal<double>(geometry.slave_chain, a, geometry.nodes[a].on_axis,
+                                       [&](int b) { return x[b]; }));
     pairs = candidate_pairs(geometry.slave_chain, x, n, geometry.master_chain, y, 0);
     for (int f = 0; f < geometry.slave_chain.facet_count(); ++f)
       facets.push_back(facet_mortar<double>(geometry, f, pairs_of(pairs, f), x, n, y));
@@ -38,7 +39,8 @@ ContactScene wavy(int order, double slave_radius, double master_radius, unsigned
     return [=](double R) { return PlanePoint<double>{R, Z + amplitude * std::cos(frequency * R)}; };
   };
   ContactScene scene(curve(order, breaks(7, 0, slave_radius, 0.6, seed), wave(0.02, 0.15, 0.5)),
-                     curve(order, breaks(9, 0, master_radius, 0.6, seed + 10), wave(0, 0.2, 0.45)), {.order = order});
+                     curve(order, breaks(9, 0, master_radius, 0.6, seed + 10), wave(0, 0.2, 0.45)),
+                     {.order = order});
   scene.disturb(0.05, 0.3, 0.9, 0.2, seed + 20);
   return scene;
 }
@@ -86,7 +88,8 @@ TEST(LineMortar, MatchingMeshesCoupleNodeToNode)
       for (std::size_t k = 0; k < mortar.facets[f].masters.size(); ++k)
         for (int a = 0; a <= order; ++a) {
           const bool same = mortar.facets[f].masters[k] == nodes[a];
-          const double D = std::visit([&](const auto &m) { return m[f].basis.D[a]; }, scene.geometry.measures);
+          const double D =
+              std::visit([&](const auto &m) { return m[f].basis.D[a]; }, scene.geometry.measures);
           EXPECT_NEAR(mortar.facets[f].M[k][a], same ? D : 0, 3e-13);
         }
     }
@@ -94,14 +97,14 @@ TEST(LineMortar, MatchingMeshesCoupleNodeToNode)
   }
 }
 
-/// On flat surfaces psi_a is integrated against every polynomial that the master's shape functions can represent,
-/// exactly: sum_m M_am q(y_m) = int psi_a q w, the right side by an independent fine rule.
+/// On flat surfaces psi_a is integrated against every polynomial that the master's shape functions can
+/// represent, exactly: sum_m M_am q(y_m) = int psi_a q w, the right side by an independent fine rule.
 TEST(LineMortar, IsExactOnFlatNonMatchingSurfaces)
 {
   static const auto rule = gauss_rule<9>();
   for (int order : {1, 2}) {
-    const ContactScene scene(flat(order, breaks(6, 0, 10, 0.7, 3), 0.1), flat(order, breaks(9, 0, 12.5, 0.7, 4), 0),
-                             {.order = order});
+    const ContactScene scene(flat(order, breaks(6, 0, 10, 0.7, 3), 0.1),
+                             flat(order, breaks(9, 0, 12.5, 0.7, 4), 0), {.order = order});
     const Mortar mortar(scene);
     const auto q = [&](double r) { return order == 1 ? 0.7 - 0.31 * r : 0.7 - 0.31 * r + 0.23 * r * r; };
     std::visit(
@@ -141,7 +144,8 @@ TEST(LineMortar, IsExactForACurvedReferenceWeight)
   std::array<double, 3> mortar_sum{}, exact{};
   const double ends[] = {0.9, 1.5, 1.85, 2.6};
   for (int m = 0; m < 3; ++m) {
-    const FacetPoints<3, double> y{{{ends[m], -0.1}, {ends[m + 1], -0.1}, {0.5 * (ends[m] + ends[m + 1]), -0.1}}};
+    const FacetPoints<3, double> y{
+        {{ends[m], -0.1}, {ends[m + 1], -0.1}, {0.5 * (ends[m] + ends[m + 1]), -0.1}}};
     const auto cell = line_pair_mortar<3, double>(measure, {x, n, y});
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) mortar_sum[a] += cell.M[a][b] * q(y[b].r);
@@ -149,8 +153,8 @@ TEST(LineMortar, IsExactForACurvedReferenceWeight)
   for (int g = 0; g < 9; ++g) {
     const auto N = facet_shape<3>(rule.point[g]).N;
     for (int a = 0; a < 3; ++a)
-      exact[a] +=
-          rule.weight[g] * measure.basis(N)[a] * q(1.7 + 0.4 * rule.point[g]) * measure.weight(N, rule.point[g]);
+      exact[a] += rule.weight[g] * measure.basis(N)[a] * q(1.7 + 0.4 * rule.point[g]) *
+                  measure.weight(N, rule.point[g]);
   }
   for (int a = 0; a < 3; ++a) EXPECT_NEAR(mortar_sum[a], exact[a], 1e-13);
 }
@@ -158,10 +162,10 @@ TEST(LineMortar, IsExactForACurvedReferenceWeight)
 TEST(LineMortar, ReportsTheOverhangAndKeepsItsBalance)
 {
   for (int order : {1, 2}) {
-    const ContactScene disc(flat(order, breaks(6, 0, 10, 0.7, 3), 0.1), flat(order, breaks(9, 0, 9.1, 0.7, 4), 0),
-                            {.order = order});
-    const ContactScene ring(flat(order, breaks(6, 3, 10, 0.7, 3), 0.1), flat(order, breaks(9, 3.4, 9.1, 0.7, 4), 0),
-                            {.order = order});
+    const ContactScene disc(flat(order, breaks(6, 0, 10, 0.7, 3), 0.1),
+                            flat(order, breaks(9, 0, 9.1, 0.7, 4), 0), {.order = order});
+    const ContactScene ring(flat(order, breaks(6, 3, 10, 0.7, 3), 0.1),
+                            flat(order, breaks(9, 3.4, 9.1, 0.7, 4), 0), {.order = order});
     for (const auto &[scene, expected] : {std::pair(disc, 0.9), std::pair(ring, 1.3)}) {
       const Mortar mortar(scene);
       double overhang = 0;
@@ -175,13 +179,14 @@ TEST(LineMortar, ReportsTheOverhangAndKeepsItsBalance)
   }
 }
 
-/// A master node on the normal line of a slave's end, up to round-off, as where both stick: the root may come out just
-/// beyond the facet, the more so the shorter the facet.
+/// A master node on the normal line of a slave's end, up to round-off, as where both stick: the root may come
+/// out just beyond the facet, the more so the shorter the facet.
 TEST(LineMortar, EndsThatCoincideUpToRoundOffAreNoFold)
 {
   for (int k = 1; k < 2000; ++k) {
     const double length = 3e-5 * k, tilt = 7e-4 * k;
-    const FacetPoints<2, double> x{{{12.3 - length, 0.1 * length}, {12.3, 0}}}, n{{{0.01, -1}, {std::sin(tilt), -1}}};
+    const FacetPoints<2, double> x{{{12.3 - length, 0.1 * length}, {12.3, 0}}},
+        n{{{0.01, -1}, {std::sin(tilt), -1}}};
     const FacetMeasure<2> measure = facet_measure<2>(x);
     const double depth = 1e-6 * k * length;
     const PlanePoint<double> shared{x[1].r + depth * n[1].r, x[1].z + depth * n[1].z};
@@ -216,7 +221,8 @@ TEST(LineMortar, CoincidentEndsLeaveNothingUndefined)
     for (const auto &M : row) EXPECT_TRUE(isfinite(M));
 }
 
-template <int nodes> void expect_kernel_derivative(const FacetMeasure<nodes> &measure, LinePair<nodes, double> pair)
+template <int nodes>
+void expect_kernel_derivative(const FacetMeasure<nodes> &measure, LinePair<nodes, double> pair)
 {
   using D = Dual<6 * nodes>;
   const auto dual = line_pair_mortar<nodes>(measure, axisymmetric_mortar::seeded<nodes>(pair));
@@ -247,10 +253,14 @@ template <int nodes> void expect_kernel_derivative(const FacetMeasure<nodes> &me
 TEST(LineMortar, KernelDerivativesAgreeWithDifferences)
 {
   // master shifted inwards, outwards, inside the slave, around it; then as the chain's edge with an overhang
-  for (const auto &[from, to] : {std::pair(0.9, 1.7), std::pair(1.5, 2.6), std::pair(1.5, 1.9), std::pair(1.1, 2.5)})
+  for (const auto &[from, to] :
+       {std::pair(0.9, 1.7), std::pair(1.5, 2.6), std::pair(1.5, 1.9), std::pair(1.1, 2.5)})
     for (bool edge : {false, true}) {
-      const LinePair<2, double> straight{
-          {{{1.3, 0.04}, {2.1, -0.03}}}, {{{0.06, -0.99}, {-0.11, -1.02}}}, {{{from, -0.05}, {to, 0.02}}}, edge, edge};
+      const LinePair<2, double> straight{{{{1.3, 0.04}, {2.1, -0.03}}},
+                                         {{{0.06, -0.99}, {-0.11, -1.02}}},
+                                         {{{from, -0.05}, {to, 0.02}}},
+                                         edge,
+                                         edge};
       expect_kernel_derivative<2>(facet_measure<2>({{{1.3, 0}, {2.1, 0.1}}}), straight);
       const LinePair<3, double> curved{{{{1.3, 0.04}, {2.1, -0.03}, {1.72, 0.07}}},
                                        {{{0.06, -0.99}, {-0.11, -1.02}, {0.03, -0.97}}},
@@ -267,7 +277,8 @@ TEST(LineMortar, RefusesWhatItCannotIntegrate)
   const FacetPoints<2, double> x{{{1.3, 0}, {2.1, 0}}}, n{{{0, -1}, {0, -1}}};
   const FacetPoints<2, double> backwards{{{2.0, -0.1}, {1.5, -0.1}}};
   EXPECT_EQ((line_pair_mortar<2, double>(measure, {x, n, backwards}).status), MortarStatus::folded);
-  const FacetPoints<2, double> crossing{{{1, -0.2}, {-1, -0.2}}}; // normals that cross before they reach the master
+  const FacetPoints<2, double> crossing{
+      {{1, -0.2}, {-1, -0.2}}}; // normals that cross before they reach the master
   EXPECT_EQ((line_pair_mortar<2, double>(measure, {x, crossing, {{{1.5, -9}, {1.9, -9}}}}).status),
             MortarStatus::folded);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -339,12 +350,14 @@ TEST(Search, FindsWhatIsNeededAndLittleElse)
       ContactScene scene = wavy(order, 10, 12.5, 6);
       scene.state.slave.travel = lift;
       const Mortar mortar(scene);
-      const int slaves = scene.geometry.slave_chain.facet_count(), masters = scene.geometry.master_chain.facet_count();
+      const int slaves = scene.geometry.slave_chain.facet_count(),
+                masters = scene.geometry.master_chain.facet_count();
       std::vector<std::pair<int, int>> all;
       for (int f = 0; f < slaves; ++f)
         for (int m = 0; m < masters; ++m) all.emplace_back(f, m);
       for (int f = 0; f < slaves; ++f) {
-        const auto complete = facet_mortar<double>(scene.geometry, f, pairs_of(all, f), mortar.x, mortar.n, mortar.y);
+        const auto complete =
+            facet_mortar<double>(scene.geometry, f, pairs_of(all, f), mortar.x, mortar.n, mortar.y);
         EXPECT_EQ(complete.masters, mortar.facets[f].masters);
         EXPECT_EQ(complete.M, mortar.facets[f].M);
       }
@@ -365,7 +378,8 @@ TEST(Search, PairsWithAMarginStaySufficientWhileTheSurfacesSlide)
     for (auto &point : y) point.r += slide;
     for (int f = slide > 0 ? 1 : 0; f < scene.geometry.slave_chain.facet_count();
          ++f) // sliding in bares the axis facet
-      EXPECT_EQ(facet_mortar<double>(scene.geometry, f, pairs_of(pairs, f), x, before.n, y).status, MortarStatus::ok);
+      EXPECT_EQ(facet_mortar<double>(scene.geometry, f, pairs_of(pairs, f), x, before.n, y).status,
+                MortarStatus::ok);
   }
   EXPECT_GT(pairs.size(), before.pairs.size());
 }

@@ -1,5 +1,5 @@
-// Contact in space where facets are narrow beside their length: points many widths away are projected, and the
-// surface's edge goes on beyond a narrow facet as far as beyond a wide one.
+// Contact in space where facets are narrow beside their length: points many widths away are projected, and
+// the surface's edge goes on beyond a narrow facet as far as beyond a wide one.
 #include "solid_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,8 @@ namespace
 
 const PolynomialFriction<double> friction{{0.3, 0.2}, {0, 1}, 1};
 
-/// A square of 3 x 3 facets on [-1.5, 1.5]^2; the column in the middle is `width` wide, and all are bent like hoops.
+/// A square of 3 x 3 facets on [-1.5, 1.5]^2; the column in the middle is `width` wide, and all are bent like
+/// hoops.
 QuadReference hoops(int order, double width, double bend)
 {
   return quad_grid(3, 3, 3, 3, order, true, [=](double x, double y) {
@@ -30,7 +31,8 @@ struct Pressed {
 QuadReference narrow_edge(int order, double width)
 {
   return quad_grid(3, 3, 3, 3, order, true, [=](double x, double y) {
-    const double inner = 0.7 - width + 0.5 * (2.2 - width) * (std::min(x, 0.5) - 0.5); // two columns from -1.5
+    const double inner =
+        0.7 - width + 0.5 * (2.2 - width) * (std::min(x, 0.5) - 0.5); // two columns from -1.5
     return Vector3<double>(inner + width * std::max(0.0, x - 0.5), y, 0);
   });
 }
@@ -60,8 +62,8 @@ QuadReference flat_square(int order)
 
 } // namespace
 
-/// The pressure on a square of side 2 about the origin has no moment; what the chords of the hoops miss is as small
-/// with a facet of the width of an atom as it is with a wide one.
+/// The pressure on a square of side 2 about the origin has no moment; what the chords of the hoops miss is as
+/// small with a facet of the width of an atom as it is with a wide one.
 TEST(NarrowFacets, AreProjectedHoweverNarrow)
 {
   for (int order : {1, 2})
@@ -74,13 +76,15 @@ TEST(NarrowFacets, AreProjectedHoweverNarrow)
     }
 }
 
-/// The square hangs over by 0.3 on one side, where the edge's facets are 0.6 wide or a sixtieth or less of that.
+/// The square hangs over by 0.3 on one side, where the edge's facets are 0.6 wide or a sixtieth or less of
+/// that.
 TEST(NarrowFacets, TheEdgeGoesOnBeyondThem)
 {
   for (int order : {1, 2})
     for (const bool exact_cells : {true, false})
       for (const double width : {0.6, 1e-2, 1e-6}) {
-        const Pressed sum = pressed(SolidScene(flat_square(order), narrow_edge(order, width), order, exact_cells));
+        const Pressed sum =
+            pressed(SolidScene(flat_square(order), narrow_edge(order, width), order, exact_cells));
         ASSERT_EQ(sum.report.status, MortarStatus::ok) << "order " << order << ", width " << width;
         if (exact_cells) {
           EXPECT_NEAR(sum.report.overhang, 0.3 * 2, 0.02); // counted at the points of a rule

@@ -17,16 +17,20 @@ namespace
 using Real = long double;
 
 const std::vector<Ogden<double>> laws = {samples::paper().equilibrium, samples::odd().equilibrium,
-                                         samples::hyperelastic().equilibrium, samples::quadratic().equilibrium};
+                                         samples::hyperelastic().equilibrium,
+                                         samples::quadratic().equilibrium};
 
-// tau_a = sum_r G_r (lb_a^alpha_r - 1/3 sum_b lb_b^alpha_r) + K/2 (J^2 - 1), as it is printed, from the stretches; or
+// tau_a = sum_r G_r (lb_a^alpha_r - 1/3 sum_b lb_b^alpha_r) + K/2 (J^2 - 1), as it is printed, from the
+// stretches; or
 // + K J (J - 1).
 Real kirchhoff(const Ogden<double> &law, Real la, Real lb, Real lc)
 {
   const Real J = la * lb * lc, s = std::cbrt(J);
-  Real tau = law.bulk_modulus * (law.volumetric_law == VolumetricLaw::quadratic ? J * (J - 1) : (J * J - 1) / 2);
+  Real tau =
+      law.bulk_modulus * (law.volumetric_law == VolumetricLaw::quadratic ? J * (J - 1) : (J * J - 1) / 2);
   for (std::size_t r = 0; r < law.moduli.size(); ++r) {
-    const Real m = law.exponents[r], a = std::pow(la / s, m), b = std::pow(lb / s, m), c = std::pow(lc / s, m);
+    const Real m = law.exponents[r], a = std::pow(la / s, m), b = std::pow(lb / s, m),
+               c = std::pow(lc / s, m);
     tau += law.moduli[r] * (a - (a + b + c) / 3);
   }
   return tau;
@@ -35,12 +39,13 @@ Real kirchhoff(const Ogden<double> &law, Real la, Real lb, Real lc)
 template <class Function> Real root(Function f, Real low, Real high)
 {
   std::uintmax_t iterations = 200;
-  const auto bracket =
-      boost::math::tools::toms748_solve(f, low, high, boost::math::tools::eps_tolerance<Real>(62), iterations);
+  const auto bracket = boost::math::tools::toms748_solve(
+      f, low, high, boost::math::tools::eps_tolerance<Real>(62), iterations);
   return (bracket.first + bracket.second) / 2;
 }
 
-// The law at F = diag(a, b, c) between two rotations, turned back; only what the rounding of F leaves may differ.
+// The law at F = diag(a, b, c) between two rotations, turned back; only what the rounding of F leaves may
+// differ.
 Matrix3<double> stress(const Ogden<double> &law, double a, double b, double c, int seed)
 {
   const Matrix3<double> Q = samples::rotation(seed), R = samples::rotation(seed + 1);
@@ -89,14 +94,16 @@ TEST(Ogden, simple_shear_has_the_closed_form_stress)
     for (double gamma : {1e-9, 1e-3, 0.2, 0.9, 2.0, 2.6}) { // stretches up to 2.94
       const Real g = gamma, l = g / 2 + std::sqrt(1 + g * g / 4), sine = 2 / std::sqrt(4 + g * g),
                  cosine = g / std::sqrt(4 + g * g);
-      const Real t1 = kirchhoff(law, l, 1 / l, 1), t2 = kirchhoff(law, 1 / l, 1, l), t3 = kirchhoff(law, 1, l, 1 / l);
+      const Real t1 = kirchhoff(law, l, 1 / l, 1), t2 = kirchhoff(law, 1 / l, 1, l),
+                 t3 = kirchhoff(law, 1, l, 1 / l);
       Matrix3<double> F = Matrix3<double>::Identity(), expected;
       F(0, 1) = gamma;
       const double shear = static_cast<double>((t1 - t2) / 2 * sine);
       expected << static_cast<double>((t1 + t2) / 2 + (t1 - t2) / 2 * cosine), shear, 0, shear,
           static_cast<double>((t1 + t2) / 2 - (t1 - t2) / 2 * cosine), 0, 0, 0, static_cast<double>(t3);
       const auto response = Viscoelastic<double>{law, {}}.evaluate(F, {}, {0.3}, nullptr, false);
-      EXPECT_LT((from_mandel(response.tau) - expected).norm(), 5e-15 * (expected.norm() + law.bulk_modulus)) << gamma;
+      EXPECT_LT((from_mandel(response.tau) - expected).norm(), 5e-15 * (expected.norm() + law.bulk_modulus))
+          << gamma;
       EXPECT_NEAR(response.tau[5] / std::sqrt(2.0), shear, 2e-15 * (law.shear_modulus() + shear)) << gamma;
     }
 }
@@ -111,7 +118,8 @@ TEST(Ogden, energy_has_the_printed_value_and_the_stress_is_its_derivative)
     double printed = law.bulk_modulus * (quadratic ? (J - 1) * (J - 1) / 2 : (J * J - 2 * theta - 1) / 4);
     for (std::size_t r = 0; r < law.moduli.size(); ++r)
       for (int a = 0; a < 3; ++a)
-        printed += law.moduli[r] / law.exponents[r] * (std::pow(std::exp(eps[a]) / std::cbrt(J), law.exponents[r]) - 1);
+        printed += law.moduli[r] / law.exponents[r] *
+                   (std::pow(std::exp(eps[a]) / std::cbrt(J), law.exponents[r]) - 1);
     Vector3<D> x;
     for (int a = 0; a < 3; ++a) x[a] = D::seed(eps[a], a);
     const D t = x.sum();
@@ -120,13 +128,15 @@ TEST(Ogden, energy_has_the_printed_value_and_the_stress_is_its_derivative)
     EXPECT_NEAR(W.v, printed, 1e-14 * law.bulk_modulus);
     const auto deviatoric = law.deviatoric(e);
     const auto volumetric = law.volumetric(t);
-    for (int a = 0; a < 3; ++a) EXPECT_NEAR(W.d[a], deviatoric.tau[a].v + volumetric.mean.v, 1e-14 * law.bulk_modulus);
+    for (int a = 0; a < 3; ++a)
+      EXPECT_NEAR(W.d[a], deviatoric.tau[a].v + volumetric.mean.v, 1e-14 * law.bulk_modulus);
 
     // and so on: the stiffness is the derivative of the stress
     const Vector3<double> stiffness = value(deviatoric.stiffness);
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) {
-        const double PDP = (a == b ? stiffness[a] : 0) - (stiffness[a] + stiffness[b]) / 3 + stiffness.sum() / 9;
+        const double PDP =
+            (a == b ? stiffness[a] : 0) - (stiffness[a] + stiffness[b]) / 3 + stiffness.sum() / 9;
         EXPECT_NEAR(deviatoric.tau[a].d[b], PDP, 1e-14 * stiffness.norm());
         EXPECT_NEAR(volumetric.mean.d[b], volumetric.bulk.v, 1e-14 * law.bulk_modulus);
       }
@@ -144,9 +154,12 @@ TEST(Ogden, secants_are_divided_differences_and_derivatives_where_strains_coinci
         expected += law.moduli[r] * m * std::exp(m * 0.2L) * (half == 0 ? 1 : std::sinh(half) / half);
       }
       const auto stress = law.deviatoric(e);
-      EXPECT_NEAR(stress.secant[2], static_cast<double>(expected), 2e-15 * static_cast<double>(expected)) << gap;
-      EXPECT_NEAR(stress.secant[1], (stress.tau[0] - stress.tau[2]) / (e[0] - e[2]), 1e-14 * stress.secant[1]);
-      EXPECT_NEAR(stress.secant[0], (stress.tau[1] - stress.tau[2]) / (e[1] - e[2]), 1e-14 * stress.secant[0]);
+      EXPECT_NEAR(stress.secant[2], static_cast<double>(expected), 2e-15 * static_cast<double>(expected))
+          << gap;
+      EXPECT_NEAR(stress.secant[1], (stress.tau[0] - stress.tau[2]) / (e[0] - e[2]),
+                  1e-14 * stress.secant[1]);
+      EXPECT_NEAR(stress.secant[0], (stress.tau[1] - stress.tau[2]) / (e[1] - e[2]),
+                  1e-14 * stress.secant[0]);
       EXPECT_NEAR(stress.tau.sum(), 0, 1e-15 * stress.tau.norm());
     }
 }
@@ -164,8 +177,9 @@ TEST(Ogden, small_strains_lose_no_digits)
     }
 }
 
-// A cylinder squeezed between lubricated plates: its wall is free. The lateral stretch of the neo-Hookean law with
-// K/2 (J - 1)^2 is the root of G/3 J^(-2/3) (l^2 - a^2) + K J (J - 1), and the pressure follows; the two laws differ.
+// A cylinder squeezed between lubricated plates: its wall is free. The lateral stretch of the neo-Hookean law
+// with K/2 (J - 1)^2 is the root of G/3 J^(-2/3) (l^2 - a^2) + K J (J - 1), and the pressure follows; the two
+// laws differ.
 TEST(Ogden, compressed_cylinder_of_the_quadratic_law)
 {
   Ogden<double> law{{0.5}, {2}, 5, VolumetricLaw::quadratic};

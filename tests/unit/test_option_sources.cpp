@@ -1,4 +1,5 @@
-// Where options come from: words, files and the environment, what is taken, what is refused and what counts. No PETSc.
+// Where options come from: words, files and the environment, what is taken, what is refused and what counts.
+// No PETSc.
 #include "scene/command_line.hpp"
 #include "scene/option_order.hpp"
 #include "scene/petsc_limits.hpp"
@@ -95,9 +96,11 @@ TEST(CommandLine, keeps_names_and_values_apart_and_in_their_order)
 
 TEST(CommandLine, follows_prefixes)
 {
-  EXPECT_EQ(listed(options_of({"-prefix_push", "top_", "-radius", "3", "-prefix_pop", "-bottom_radius", "5"})),
-            "-top_radius=3 -bottom_radius=5 ");
-  const TemporaryFile file("prefix.opts", "-radius 3\n-prefix_push max\n-well_viscosities 1,2\n-prefix_pop\n");
+  EXPECT_EQ(
+      listed(options_of({"-prefix_push", "top_", "-radius", "3", "-prefix_pop", "-bottom_radius", "5"})),
+      "-top_radius=3 -bottom_radius=5 ");
+  const TemporaryFile file("prefix.opts",
+                           "-radius 3\n-prefix_push max\n-well_viscosities 1,2\n-prefix_pop\n");
   EXPECT_EQ(listed(options_of({"-prefix_push", "top_", "-options_file", file.path, "-PREFIX_POP", "-a"})),
             "-top_radius=3 -top_maxwell_viscosities=1,2 -a= ");
   EXPECT_TRUE(contains(refusal([] { options_of({"-prefix_pop"}); }), "after a -prefix_push"));
@@ -154,7 +157,8 @@ TEST(OptionsFile, refuses_with_file_line_and_option)
   const TemporaryFile bare("bare.opts", "top_radius 9\n");
   EXPECT_TRUE(contains(refusal([&] { check_options_file(bare.path); }), "top_radius"));
   for (const char control : {'\0', '\x1b', '\x7f'}) {
-    const TemporaryFile damaged("damaged.opts", std::string("-top_height 4\n-top_radius 9") + control + "5\n");
+    const TemporaryFile damaged("damaged.opts",
+                                std::string("-top_height 4\n-top_radius 9") + control + "5\n");
     EXPECT_TRUE(contains(refusal([&] { check_options_file(damaged.path); }), damaged.path + ": line 2"));
   }
   const TemporaryFile empty_name("name.opts", "-options_file\n");
@@ -184,11 +188,12 @@ TEST(OptionsFile, ends_lines_as_any_system_does)
 /// What another program may take for the end of a line, in a comment too: the rest would be read or not.
 TEST(OptionsFile, refuses_line_ends_that_are_not_everybodys)
 {
-  const std::vector<std::pair<std::string, std::string>> ends{{"\v", "a vertical tab (U+000B)"},
-                                                              {"\f", "a form feed (U+000C)"},
-                                                              {"\xC2\x85", "a next-line character (U+0085)"},
-                                                              {"\xE2\x80\xA8", "a line separator (U+2028)"},
-                                                              {"\xE2\x80\xA9", "a paragraph separator (U+2029)"}};
+  const std::vector<std::pair<std::string, std::string>> ends{
+      {"\v", "a vertical tab (U+000B)"},
+      {"\f", "a form feed (U+000C)"},
+      {"\xC2\x85", "a next-line character (U+0085)"},
+      {"\xE2\x80\xA8", "a line separator (U+2028)"},
+      {"\xE2\x80\xA9", "a paragraph separator (U+2029)"}};
   for (const auto &[end, words] : ends)
     for (const std::string before : {"# mine", "-top_height 3"}) {
       const std::string text = refusal_of_file("\n" + before + end + "-top_radius 8\n");
@@ -205,7 +210,8 @@ TEST(OptionsFile, refuses_other_encodings_by_their_names)
     big += {'\0', c};
   }
   for (const std::string &content : {"\xFF\xFE" + little, "\xFE\xFF" + big})
-    EXPECT_TRUE(contains(refusal_of_file(content), "is UTF-16; allowed: a text file of options, saved as UTF-8"));
+    EXPECT_TRUE(
+        contains(refusal_of_file(content), "is UTF-16; allowed: a text file of options, saved as UTF-8"));
   for (const std::string &content : {little, big})
     EXPECT_TRUE(contains(refusal_of_file(content), "line 1 is no text, it holds a byte 0"));
   EXPECT_EQ(in_file("# Gr\xF6\xDF"
@@ -220,13 +226,16 @@ TEST(OptionsFile, refuses_characters_that_are_not_what_they_look_like)
   const std::string blank = "\xC2\xA0"; // no-break
   const std::string after_name = refusal_of_file("\n-top_radius" + blank + "8\n");
   EXPECT_TRUE(after_name.starts_with("-top_radius<U+00A0>8: ")) << after_name;
-  EXPECT_TRUE(contains(after_name, "no-break space (U+00A0)") && contains(after_name, " line 2")) << after_name;
+  EXPECT_TRUE(contains(after_name, "no-break space (U+00A0)") && contains(after_name, " line 2"))
+      << after_name;
   const std::string after_value = refusal_of_file("\n-top_radius 8" + blank + "\n");
   EXPECT_TRUE(after_value.starts_with("-top_radius = 8<U+00A0>: ")) << after_value;
-  EXPECT_TRUE(contains(after_value, "no-break space (U+00A0)") && contains(after_value, " line 2")) << after_value;
+  EXPECT_TRUE(contains(after_value, "no-break space (U+00A0)") && contains(after_value, " line 2"))
+      << after_value;
   EXPECT_TRUE(contains(refusal_of_file("\xE2\x80\x93top_radius 8\n"), "begins with an en dash (U+2013)"));
   EXPECT_TRUE(contains(refusal_of_file("-top_radius=8\n"), "allowed: -top_radius 8, with a blank"));
-  EXPECT_TRUE(contains(refusal_of_file("-top_radius 8\n\xEF\xBB\xBF-top_height 3\n"), "byte-order mark (U+FEFF)"));
+  EXPECT_TRUE(
+      contains(refusal_of_file("-top_radius 8\n\xEF\xBB\xBF-top_height 3\n"), "byte-order mark (U+FEFF)"));
   EXPECT_EQ(in_file("-output_directory Gr\xC3\xB6\xC3\x9F"
                     "e\n"),
             "-output_directory=Gr\xC3\xB6\xC3\x9F"
@@ -235,7 +244,8 @@ TEST(OptionsFile, refuses_characters_that_are_not_what_they_look_like)
 
 TEST(OptionsFile, takes_quoted_words)
 {
-  EXPECT_EQ(in_file("-output_directory \"my run\"\n-top_radius \"8\"\n"), "-output_directory=my run -top_radius=8 ");
+  EXPECT_EQ(in_file("-output_directory \"my run\"\n-top_radius \"8\"\n"),
+            "-output_directory=my run -top_radius=8 ");
   EXPECT_TRUE(contains(refusal_of_file("-output_directory \"my run\n"), "quotation mark"));
   EXPECT_TRUE(contains(refusal_of_file("-plate_contact \"\"\n"), "-plate_contact: value missing"));
 }
@@ -252,7 +262,10 @@ TEST(OptionsFile, is_read_where_it_is_named)
   EXPECT_EQ(options[2].place(), "on the command line");
   EXPECT_EQ(options[5].place(), "in options file " + outer.path + " line 3");
   EXPECT_TRUE(options[0].unasked && options[1].unasked && !options[2].unasked && !options[4].unasked);
-  EXPECT_TRUE(contains(refusal([] { options_of({"-options_file", "a.yaml"}); }), "-options_file = a.yaml: YAML"));
+  EXPECT_TRUE(contains(refusal([] {
+                         options_of({"-options_file", "a.yaml"});
+                       }),
+                       "-options_file = a.yaml: YAML"));
   EXPECT_TRUE(contains(refusal([] { options_of({"-options_string_yaml", "a: 1"}); }), "YAML"));
 }
 
@@ -266,15 +279,19 @@ TEST(OptionOrder, of_two_ways_to_say_one_thing_the_later_counts)
   };
   const TemporaryFile rates("rates.opts", "-schedule_rates 0,1\n");
   const std::string file = left({"-options_file", rates.path, "-schedule_twists", "0,2", "-overwrite"});
-  EXPECT_TRUE(file.starts_with("-schedule_twists=0,2 -overwrite= | -schedule_rates = 0,1 (in options file ")) << file;
+  EXPECT_TRUE(file.starts_with("-schedule_twists=0,2 -overwrite= | -schedule_rates = 0,1 (in options file "))
+      << file;
   EXPECT_TRUE(contains(file, " line 1) gives way to -schedule_twists = 0,2 (on the command line)")) << file;
   const std::string turned = left({"-schedule_twists", "0,2", "-options_file", rates.path});
-  EXPECT_TRUE(turned.starts_with("-schedule_rates=0,1 | -schedule_twists = 0,2 (on the command line) gives way"))
+  EXPECT_TRUE(
+      turned.starts_with("-schedule_rates=0,1 | -schedule_twists = 0,2 (on the command line) gives way"))
       << turned;
-  EXPECT_TRUE(left({"-schedule_rates", "0"}, "-SCHEDULE_TWISTS 1").starts_with("-schedule_rates=0 | -SCHEDULE_TWISTS"));
+  EXPECT_TRUE(left({"-schedule_rates", "0"}, "-SCHEDULE_TWISTS 1")
+                  .starts_with("-schedule_rates=0 | -SCHEDULE_TWISTS"));
   EXPECT_TRUE(left({"-schedule_rates", "1", "-schedule_twists", "2", "-schedule_rates", "3"})
                   .starts_with("-schedule_rates=1 -schedule_rates=3 | -schedule_twists = 2"));
-  EXPECT_TRUE(left({"-ts_atol", "1e-3", "-time_tolerance", "1"}).starts_with("-time_tolerance=1 | -ts_atol = 1e-3"));
+  EXPECT_TRUE(
+      left({"-ts_atol", "1e-3", "-time_tolerance", "1"}).starts_with("-time_tolerance=1 | -ts_atol = 1e-3"));
   EXPECT_EQ(left({"-schedule_rates", "1", "-schedule_rates", "3"}), "-schedule_rates=1 -schedule_rates=3 ");
 }
 
@@ -285,9 +302,9 @@ TEST(OptionOrder, tells_what_is_given_twice_in_one_place_and_what_comes_unasked)
     for (const std::string &note : notes_on_sources(options_of(words, environment))) text += note + "\n";
     return text;
   };
-  EXPECT_EQ(
-      notes({"-top_radius", "8", "-Top_Radius", "9"}),
-      "-top_radius = 8 (on the command line) gives way to -Top_Radius = 9 (on the command line), which comes later\n");
+  EXPECT_EQ(notes({"-top_radius", "8", "-Top_Radius", "9"}),
+            "-top_radius = 8 (on the command line) gives way to -Top_Radius = 9 (on the command line), which "
+            "comes later\n");
   EXPECT_EQ(notes({"-top_radius", "8", "-top_radius", "8"}), "");
   const TemporaryFile file("radius.opts", "-top_radius 8\n");
   EXPECT_EQ(notes({"-options_file", file.path, "-top_radius", "9"}), ""); // that is what files are for
@@ -303,13 +320,15 @@ TEST(PetscLimits, refuse_by_name_what_would_break_a_promise)
   };
   EXPECT_EQ(text("-ts_max_time", "5"),
             "-ts_max_time = 5: the schedule ends the run; allowed: nothing; use -schedule_end_times");
-  EXPECT_TRUE(contains(text("-ts_adapt_type", "glee"), "-ts_adapt_type = glee: ")) << text("-ts_adapt_type", "glee");
+  EXPECT_TRUE(contains(text("-ts_adapt_type", "glee"), "-ts_adapt_type = glee: "))
+      << text("-ts_adapt_type", "glee");
   EXPECT_TRUE(contains(text("-ts_adapt_type", "glee"), "allowed: basic or dsp or none"));
   EXPECT_TRUE(contains(text("-ts_exact_final_time", "stepover"), "allowed: matchstep"));
   EXPECT_TRUE(contains(text("-snes_convergence_test", "skip"), "-snes_rtol"));
   EXPECT_TRUE(contains(text("-SNES_TYPE", "ksponly"), "newtonls or newtontr"));
   EXPECT_TRUE(contains(text("-snes_error_if_not_converged", ""), "shorter one")); // bare: true
-  for (const char *value : {"nan", "inf", "1", "-1e-3", "x"}) EXPECT_NE(text("-snes_rtol", value), "") << value;
+  for (const char *value : {"nan", "inf", "1", "-1e-3", "x"})
+    EXPECT_NE(text("-snes_rtol", value), "") << value;
   for (const char *value : {"nan", "inf", "0", "2", "1e999"}) EXPECT_NE(text("-ts_atol", value), "") << value;
   for (const auto &[name, value] :
        std::vector<std::pair<std::string, std::string>>{{"-ts_exact_final_time", "matchstep"},

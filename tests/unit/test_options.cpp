@@ -35,9 +35,9 @@ TEST(Parse, takes_the_ways_people_write_numbers)
 
 TEST(Parse, refuses_what_is_not_one_finite_number)
 {
-  for (const char *text :
-       {"",         " ",    "3 ",    " 3",     "0 8e-4", "3x", "x3",  "3,4", "nan", "NaN", "-nan",  "inf", "-inf",
-        "infinity", "0x10", "1e400", "-1e400", "1e-400", "1e", "--3", "+-3", "++3", ".",   "1.2.3", "3\n", "1d3"}) {
+  for (const char *text : {"",    " ",    "3 ",  " 3",   "0 8e-4",   "3x",    "x3",    "3,4",    "nan",
+                           "NaN", "-nan", "inf", "-inf", "infinity", "0x10",  "1e400", "-1e400", "1e-400",
+                           "1e",  "--3",  "+-3", "++3",  ".",        "1.2.3", "3\n",   "1d3"}) {
     const Parsed<double> parsed = parse_real(text);
     EXPECT_FALSE(parsed.value) << "'" << text << "'";
     EXPECT_FALSE(parsed.error.empty()) << "'" << text << "'";
@@ -52,7 +52,8 @@ TEST(Parse, refuses_integers_that_are_not_whole_or_overflow)
 
 TEST(Parse, refuses_malformed_lists)
 {
-  for (const char *text : {"", ",", "0,,1", "0,1,", ",0,1", "0, 1", "0 8e-4", "0;1", "0,nan", "0,1e999", "1,2x"}) {
+  for (const char *text :
+       {"", ",", "0,,1", "0,1,", ",0,1", "0, 1", "0 8e-4", "0;1", "0,nan", "0,1e999", "1,2x"}) {
     const auto parsed = parse_reals(text);
     EXPECT_FALSE(parsed.value) << "'" << text << "'";
     EXPECT_FALSE(parsed.error.empty()) << "'" << text << "'";
@@ -103,10 +104,11 @@ TEST(OptionTable, is_complete_and_consistent)
       EXPECT_TRUE(is_option_name(option.name)) << option.name;
       EXPECT_TRUE(names.insert(option.name).second) << option.name << " twice";
       EXPECT_FALSE(option.meaning.empty()) << option.name;
-      EXPECT_TRUE(option.source == "paper" || option.source == "assumed" || option.source == "own") << option.name;
+      EXPECT_TRUE(option.source == "paper" || option.source == "assumed" || option.source == "own")
+          << option.name;
       EXPECT_EQ(option.kind == OptionKind::choice, !option.choices.empty()) << option.name;
-      const bool is_number =
-          option.kind == OptionKind::real || option.kind == OptionKind::reals || option.kind == OptionKind::integer;
+      const bool is_number = option.kind == OptionKind::real || option.kind == OptionKind::reals ||
+                             option.kind == OptionKind::integer;
       EXPECT_EQ(is_number, !option.unit.empty()) << option.name;
       EXPECT_EQ(find_option(option.name), &option);
     }
@@ -129,7 +131,8 @@ TEST(OptionTable, says_what_is_allowed)
   EXPECT_EQ(find_option("-top_height")->allowed(), "a real number > 0 [mm]");
   EXPECT_EQ(find_option("-element_order")->allowed(), "a whole number 1 to 2");
   EXPECT_EQ(find_option("-specimens")->allowed(), "both or bottom");
-  EXPECT_EQ(find_option("-top_maxwell_viscosities")->allowed(), "2 real numbers > 0 separated by commas [MPa s]");
+  EXPECT_EQ(find_option("-top_maxwell_viscosities")->allowed(),
+            "2 real numbers > 0 separated by commas [MPa s]");
   EXPECT_FALSE(positive.contains(0));
   EXPECT_TRUE(non_negative.contains(0));
   EXPECT_FALSE(non_negative.contains(std::numeric_limits<double>::quiet_NaN()));

@@ -1,5 +1,5 @@
-/// 20,000 sets of options, right ones and spoiled ones: each is either refused with one line that names an option and
-/// what is allowed, or gives a scene that makes sense.
+/// 20,000 sets of options, right ones and spoiled ones: each is either refused with one line that names an
+/// option and what is allowed, or gives a scene that makes sense.
 #include "scene/option_table.hpp"
 #include "scene/scene_input.hpp"
 
@@ -37,14 +37,17 @@ public:
     }
   }
 
-  std::size_t pick(std::size_t count) { return std::uniform_int_distribution<std::size_t>(0, count - 1)(engine); }
+  std::size_t pick(std::size_t count)
+  {
+    return std::uniform_int_distribution<std::size_t>(0, count - 1)(engine);
+  }
 
 private:
   std::string number()
   {
-    static const std::vector<std::string> special = {"0",    "-0",  "1",     "-1",  "1e-300", "1e300", "1e400", "nan",
-                                                     "inf",  "0x1", "1.5.2", "--2", "3e",     "12",    "2",     "0.5",
-                                                     "1e-5", "27",  "3600",  " 7",  "7 ",     "",      "+4",    ".5"};
+    static const std::vector<std::string> special = {
+        "0",  "-0", "1", "-1",  "1e-300", "1e300", "1e400", "nan", "inf", "0x1", "1.5.2", "--2",
+        "3e", "12", "2", "0.5", "1e-5",   "27",    "3600",  " 7",  "7 ",  "",    "+4",    ".5"};
     if (pick(3) > 0) return special[pick(special.size())];
     return std::to_string(std::lognormal_distribution<double>(0, 4)(engine));
   }
@@ -88,7 +91,8 @@ void expect_sense(const Scene &scene)
 {
   for (const Specimen *gel : {&scene.top, &scene.bottom}) {
     if (gel == &scene.top && !scene.has_top) continue;
-    EXPECT_TRUE(gel->radius > 0 && std::isfinite(gel->radius) && gel->height > 0 && std::isfinite(gel->height));
+    EXPECT_TRUE(gel->radius > 0 && std::isfinite(gel->radius) && gel->height > 0 &&
+                std::isfinite(gel->height));
     EXPECT_GT(gel->material.equilibrium.bulk_modulus, 0);
     EXPECT_GT(gel->material.equilibrium.shear_modulus(), 0);
     for (const auto &branch : gel->material.branches) {

@@ -38,8 +38,8 @@ std::string joined(const std::vector<std::string> &lines)
 
 std::string resolved(const SceneInput &input, const std::string &name)
 {
-  const auto found =
-      std::find_if(input.options.begin(), input.options.end(), [&](const auto &o) { return o.first == name; });
+  const auto found = std::find_if(input.options.begin(), input.options.end(),
+                                  [&](const auto &o) { return o.first == name; });
   return found == input.options.end() ? "absent" : found->second;
 }
 
@@ -90,7 +90,8 @@ TEST(OptionsScene, defaults_are_the_paper_scene)
   const Scene solid = scene_from_options({{"-model", "solid"}}).scene;
   EXPECT_EQ(solid.mesh.elements_radial, 3);
   EXPECT_EQ(solid.mesh.grading, 1);
-  EXPECT_EQ(scene_from_options({{"-model", "solid"}, {"-elements_radial", "5"}}).scene.mesh.elements_radial, 5);
+  EXPECT_EQ(scene_from_options({{"-model", "solid"}, {"-elements_radial", "5"}}).scene.mesh.elements_radial,
+            5);
   EXPECT_EQ(scene.output.directory, "tribogel-output");
   EXPECT_FALSE(scene.output.overwrite);
   EXPECT_FALSE(scene.output.error_estimate);
@@ -188,7 +189,8 @@ TEST(OptionsScene, a_restart_goes_on_where_the_run_is)
 TEST(OptionsScene, a_restart_takes_the_stored_scene_only)
 {
   nlohmann::json stored;
-  for (const auto &[name, text] : scene_from_options({{"-top_height", "4.10"}, {"-checkpoint_every", "9"}}).options)
+  for (const auto &[name, text] :
+       scene_from_options({{"-top_height", "4.10"}, {"-checkpoint_every", "9"}}).options)
     stored["resolved"]["-" + name] = text;
   const auto refusal_of = [&](const GivenOptions &given) -> std::string {
     try {
@@ -199,11 +201,14 @@ TEST(OptionsScene, a_restart_takes_the_stored_scene_only)
     return {};
   };
   EXPECT_EQ(refusal_of({{"-top_height", "4.1"}, {"-checkpoint_every", "3"}, {"-wall_time", "5"}}), "");
-  EXPECT_NE(refusal_of({{"-top_height", "4.2"}}).find("-top_height = 4.2: the run in tribogel-output has 4.10"),
-            std::string::npos);
-  EXPECT_NE(refusal_of({{"-top_height", "4.1"}, {"-maxwell_integrator", "exponential_euler"}, {"-mesh_grading", "3"}})
-                .find("-mesh_grading = 3"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal_of({{"-top_height", "4.2"}}).find("-top_height = 4.2: the run in tribogel-output has 4.10"),
+      std::string::npos);
+  EXPECT_NE(
+      refusal_of(
+          {{"-top_height", "4.1"}, {"-maxwell_integrator", "exponential_euler"}, {"-mesh_grading", "3"}})
+          .find("-mesh_grading = 3"),
+      std::string::npos);
 }
 
 TEST(OptionsScene, twists_are_angles_reached)
@@ -228,7 +233,8 @@ TEST(OptionsScene, resolves_every_option_once)
   EXPECT_EQ(resolved(input, "schedule_rates"), "0,0,0.01,0.1,1");
   EXPECT_EQ(resolved(input, "schedule_twists"), "absent");
   for (const auto &[name, text] : input.options)
-    EXPECT_EQ(std::count_if(input.options.begin(), input.options.end(), [&](const auto &o) { return o.first == name; }),
+    EXPECT_EQ(std::count_if(input.options.begin(), input.options.end(),
+                            [&](const auto &o) { return o.first == name; }),
               1)
         << name;
 }
@@ -259,7 +265,8 @@ TEST(OptionsScene, refuses_steady_states_that_depend_on_the_way_there)
   EXPECT_EQ(scene_from_options(turning).scene.schedule_kind, ScheduleKind::steady);
   EXPECT_EQ(refusal({{"-schedule_kind", "steady"}}), ""); // rests, but without static friction
   expect_refused("-schedule_kind", "steady", {{"-friction_coefficients", "0.1,8e-4"}});
-  EXPECT_TRUE(contains(refusal({{"-schedule_kind", "steady"}, {"-friction_coefficients", "0.1,8e-4"}}), "phase 1"));
+  EXPECT_TRUE(
+      contains(refusal({{"-schedule_kind", "steady"}, {"-friction_coefficients", "0.1,8e-4"}}), "phase 1"));
 }
 
 TEST(OptionsScene, refuses_unknown_words)
@@ -286,8 +293,8 @@ TEST(OptionsScene, refuses_unphysical_materials)
   expect_refused("-bottom_maxwell_viscosities", "4.5,0");
   expect_refused("-bottom_maxwell_viscosities", "4.5");
   expect_refused("-bottom_maxwell_viscosities", "4.5,2,3");
-  EXPECT_TRUE(
-      refusal({{"-top_ogden_moduli", "0.75,0.45"}}).starts_with("-top_ogden_exponents = 1.3,2,5 (default) has 3"));
+  EXPECT_TRUE(refusal({{"-top_ogden_moduli", "0.75,0.45"}})
+                  .starts_with("-top_ogden_exponents = 1.3,2,5 (default) has 3"));
 }
 
 TEST(OptionsScene, wrong_values_are_refused_even_where_they_have_no_effect)
@@ -307,7 +314,8 @@ TEST(OptionsScene, refuses_friction_the_program_cannot_do)
   expect_refused("-friction_pressure_floor", "0");
   expect_refused("-friction_coefficients", "-0.1,8e-4"); // negative at rest
   EXPECT_TRUE(contains(refusal({{"-friction_coefficients", "1,2,3"}}), "equal lengths"));
-  const std::string falling = refusal({{"-friction_coefficients", "1,-0.2"}, {"-friction_exponents", "0,0.5"}});
+  const std::string falling =
+      refusal({{"-friction_coefficients", "1,-0.2"}, {"-friction_exponents", "0,0.5"}});
   EXPECT_TRUE(contains(falling, "-friction_coefficients = 1,-0.2: -0.2 with exponent 0.5")) << falling;
 }
 
@@ -316,7 +324,8 @@ TEST(OptionsScene, refuses_inconsistent_schedules)
   expect_refused("-schedule_end_times", "27,3600,3600,5400,6300");
   expect_refused("-schedule_end_times", "27,20,30,40,50");
   expect_refused("-schedule_end_times", "0,1,2,3,4");
-  EXPECT_TRUE(contains(refusal({{"-schedule_end_times", "1,2"}}), "-schedule_rates = 0,0,0.01,0.1,1 (default) has 5"));
+  EXPECT_TRUE(contains(refusal({{"-schedule_end_times", "1,2"}}),
+                       "-schedule_rates = 0,0,0.01,0.1,1 (default) has 5"));
   EXPECT_TRUE(contains(refusal({{"-schedule_approach", "0.5,0.6"}}), "equal lengths"));
   expect_refused("-schedule_approach", "0.79,0.79,0.79,0.79,8.4");
   EXPECT_EQ(refusal({{"-schedule_approach", "0.79,0.79,0.79,0.79,8.39"}}), "");
@@ -372,7 +381,8 @@ TEST(OptionsScene, refuses_absurd_meshes_with_their_number_of_elements)
   EXPECT_EQ(estimated_elements(scene), 5 * 3); // edge 12 / 5
   scene.mesh.refinements = 3;
   EXPECT_EQ(estimated_elements(scene), 40 * 20);
-  EXPECT_TRUE(contains(refusal({{"-elements_radial", "330"}, {"-mesh_refinements", "10"}}), "1.07e+11 elements"));
+  EXPECT_TRUE(
+      contains(refusal({{"-elements_radial", "330"}, {"-mesh_refinements", "10"}}), "1.07e+11 elements"));
 }
 
 TEST(OptionsScene, further_branches_need_all_four_options)
@@ -395,7 +405,8 @@ TEST(OptionsScene, warns_of_suspicious_materials_and_goes_on)
   const std::string auxetic = joined(scene_from_options({{"-top_bulk_modulus", "0.5"}}).warnings);
   EXPECT_TRUE(contains(auxetic, "-top_bulk_modulus = 0.5")) << auxetic;
   EXPECT_TRUE(contains(auxetic, "auxetic")) << auxetic;
-  const std::string fast = joined(scene_from_options({{"-bottom_maxwell_viscosities", "4.5e-6,2e-4"}}).warnings);
+  const std::string fast =
+      joined(scene_from_options({{"-bottom_maxwell_viscosities", "4.5e-6,2e-4"}}).warnings);
   EXPECT_TRUE(contains(fast, "-bottom_maxwell_viscosities")) << fast;
   EXPECT_TRUE(contains(fast, "relaxation time")) << fast;
   EXPECT_TRUE(scene_from_options({{"-specimens", "bottom"}, {"-top_bulk_modulus", "0.5"}}).warnings.empty());
@@ -404,15 +415,17 @@ TEST(OptionsScene, warns_of_suspicious_materials_and_goes_on)
 TEST(OptionsScene, notes_options_without_effect)
 {
   const std::string alone = joined(
-      scene_from_options({{"-specimens", "bottom"}, {"-friction_coefficients", "1,2"}, {"-top_radius", "3"}}).notes);
+      scene_from_options({{"-specimens", "bottom"}, {"-friction_coefficients", "1,2"}, {"-top_radius", "3"}})
+          .notes);
   EXPECT_TRUE(contains(alone, "-friction_coefficients, -top_radius")) << alone;
-  const std::string stiff =
-      joined(scene_from_options({{"-top_material", "hyperelastic"}, {"-top_maxwell_viscosities", "4,5"}}).notes);
+  const std::string stiff = joined(
+      scene_from_options({{"-top_material", "hyperelastic"}, {"-top_maxwell_viscosities", "4,5"}}).notes);
   EXPECT_TRUE(contains(stiff, "-top_maxwell_viscosities")) << stiff;
   const std::string smooth =
       joined(scene_from_options({{"-friction_law", "none"}, {"-friction_exponents", "0,1"}}).notes);
   EXPECT_TRUE(contains(smooth, "-friction_exponents")) << smooth;
-  EXPECT_TRUE(contains(joined(scene_from_options({{"-friction_pressure_floor", "1e-4"}}).notes), "pressure_floor"));
+  EXPECT_TRUE(
+      contains(joined(scene_from_options({{"-friction_pressure_floor", "1e-4"}}).notes), "pressure_floor"));
   const std::string apart = joined(scene_from_options({{"-initial_gap", "2"}}).notes);
   EXPECT_TRUE(contains(apart, "never pressed")) << apart;
   const std::string weak = joined(scene_from_options({{"-friction_coefficients", "0.1,-1e-3"}}).notes);
@@ -421,7 +434,8 @@ TEST(OptionsScene, notes_options_without_effect)
 
 TEST(OptionsScene, hyperelastic_and_frictionless_scenes_carry_nothing)
 {
-  const Scene scene = scene_from_options({{"-top_material", "hyperelastic"}, {"-friction_law", "none"}}).scene;
+  const Scene scene =
+      scene_from_options({{"-top_material", "hyperelastic"}, {"-friction_law", "none"}}).scene;
   EXPECT_TRUE(scene.top.material.branches.empty());
   EXPECT_EQ(scene.bottom.material.branches.size(), 1u);
   EXPECT_TRUE(scene.friction.coefficients.empty());
@@ -430,8 +444,8 @@ TEST(OptionsScene, hyperelastic_and_frictionless_scenes_carry_nothing)
 TEST(OptionsScene, report_says_what_is_solved)
 {
   const std::string text = scene_report(scene_from_options({{"-top_bulk_modulus", "0.5"}}));
-  for (const char *part : {"radius 10 mm", "G 1.387 MPa", "4.235 s", "mu = 0 + 0.0008 v", "143.2", "159 turns",
-                           "10 mm/s", "warning: -top_bulk_modulus"})
+  for (const char *part : {"radius 10 mm", "G 1.387 MPa", "4.235 s", "mu = 0 + 0.0008 v", "143.2",
+                           "159 turns", "10 mm/s", "warning: -top_bulk_modulus"})
     EXPECT_TRUE(contains(text, part)) << part << "\n" << text;
 }
 

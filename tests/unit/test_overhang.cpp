@@ -25,7 +25,8 @@ double by_rings(double r, double R, double d)
 
 TEST(Overhang, IsTheAreaBeyondTheOtherDisc)
 {
-  const std::array<double, 3> cases[] = {{10, 12.5, 5}, {10, 12.5, 3}, {10, 12.5, 14}, {12.5, 10, 5}, {1, 1, 0.3}};
+  const std::array<double, 3> cases[] = {
+      {10, 12.5, 5}, {10, 12.5, 3}, {10, 12.5, 14}, {12.5, 10, 5}, {1, 1, 0.3}};
   for (const auto &[r, R, d] : cases) EXPECT_NEAR(disc_overhang(r, R, d), by_rings(r, R, d), 1e-6);
   EXPECT_EQ(disc_overhang(10, 12.5, 2.5), 0);
   EXPECT_EQ(disc_overhang(10, 12.5, 0), 0);

@@ -49,7 +49,8 @@ TEST(Relaxation, converges_to_the_evolution_law_at_first_order)
   soft.branches[0].spring.bulk_modulus = 2.3;
   for (const auto &material : {soft, samples::odd()}) {
     const double end = 3.1;
-    const Mandel<double> exact = stress_at(material, wandering(end), integrate_flow(material, wandering, end));
+    const Mandel<double> exact =
+        stress_at(material, wandering(end), integrate_flow(material, wandering, end));
     std::vector<double> error;
     std::vector<Mandel<double>> tau;
     for (int steps : {100, 200, 400, 800, 1600}) {
@@ -71,8 +72,8 @@ TEST(Relaxation, converges_to_the_evolution_law_at_first_order)
 }
 
 /// Stress of a strain that is held from t = 0 on, divided by the strain: G(t) or K(t).
-std::vector<double> relaxation(const Viscoelastic<double> &material, const Matrix3<double> &F, double step, int steps,
-                               int component, double strain)
+std::vector<double> relaxation(const Viscoelastic<double> &material, const Matrix3<double> &F, double step,
+                               int steps, int component, double strain)
 {
   std::vector<double> history(material.history_size()), moduli;
   material.initial_history(history.data());
@@ -90,7 +91,8 @@ TEST(Relaxation, small_strains_relax_with_the_linear_moduli)
 {
   const double strain = 1e-5, end = 2.6;
   for (const auto &material : {samples::paper(), samples::odd()}) {
-    Matrix3<double> shear = Matrix3<double>::Identity(), swelling = Matrix3<double>::Identity() * std::cbrt(1 + strain);
+    Matrix3<double> shear = Matrix3<double>::Identity(),
+                    swelling = Matrix3<double>::Identity() * std::cbrt(1 + strain);
     shear(0, 1) = strain;
     std::vector<double> shear_error, bulk_error;
     for (int steps : {200, 400, 800}) {
@@ -109,7 +111,8 @@ TEST(Relaxation, small_strains_relax_with_the_linear_moduli)
         ASSERT_NEAR(K[i] / K_euler, 1, 5 * strain);
       }
       for (const auto &b : material.branches) {
-        exact_G += b.spring.shear_modulus() * std::exp(-end * b.spring.shear_modulus() / b.deviatoric_viscosity);
+        exact_G +=
+            b.spring.shear_modulus() * std::exp(-end * b.spring.shear_modulus() / b.deviatoric_viscosity);
         exact_K += b.spring.bulk_modulus * std::exp(-end * b.spring.bulk_modulus / b.volumetric_viscosity);
       }
       shear_error.push_back(std::abs(G.back() / exact_G - 1));

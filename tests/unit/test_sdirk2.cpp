@@ -26,7 +26,8 @@ struct Point {
   {
     auto between = history, next = history;
     const double length = sdirk2::gamma * h;
-    const auto first = material.evaluate(middle, {history.data()}, {length, sdirk2::reach}, between.data(), false);
+    const auto first =
+        material.evaluate(middle, {history.data()}, {length, sdirk2::reach}, between.data(), false);
     last = material.evaluate(end, {between.data()}, {length}, next.data(), false);
     ASSERT_EQ(first.status, PointStatus::ok);
     ASSERT_EQ(last.status, PointStatus::ok);
@@ -98,7 +99,8 @@ TEST(Sdirk2, coefficients_are_of_second_order_and_stiffly_accurate)
 TEST(Sdirk2, converges_to_the_evolution_law_at_second_order_also_with_uneven_steps)
 {
   const double end = 3.1;
-  for (const auto &material : {branches_of(soft(), 1), branches_of(samples::odd(), 1), branches_of(soft(), 0.01)}) {
+  for (const auto &material :
+       {branches_of(soft(), 1), branches_of(samples::odd(), 1), branches_of(soft(), 0.01)}) {
     const Mandel<double> exact =
         samples::stress_at(material, wandering(end), samples::integrate_flow(material, wandering, end));
     for (double uneven : {0.0, 0.5}) {
@@ -156,8 +158,8 @@ TEST(Sdirk2, is_l_stable_for_relaxation_times_seven_decades_below_the_step)
   }
 }
 
-// The stress is then the viscosity's, 1e-7 of the spring's. The rate at a stage's end is of first order where the
-// strain follows the motion, THEORY (4.6), so is this stress; it stays bounded by it.
+// The stress is then the viscosity's, 1e-7 of the spring's. The rate at a stage's end is of first order where
+// the strain follows the motion, THEORY (4.6), so is this stress; it stays bounded by it.
 TEST(Sdirk2, a_stiff_branch_follows_the_motion)
 {
   const auto material = branches_of(soft(), 1e-7);
@@ -181,7 +183,8 @@ TEST(Sdirk2, work_in_a_closed_cycle_is_stored_plus_dissipated_to_second_order)
     for (int steps : {200, 400, 800, 1600}) {
       const Path path = follow(material, 4, steps, 0);
       EXPECT_GE(path.point.least_dissipation, 0);
-      residual.push_back(std::abs(path.work - path.point.last.energy - path.point.dissipated) / path.point.dissipated);
+      residual.push_back(std::abs(path.work - path.point.last.energy - path.point.dissipated) /
+                         path.point.dissipated);
     }
     for (std::size_t i = 1; i < residual.size(); ++i)
       EXPECT_GT(std::log2(residual[i - 1] / residual[i]), 1.8) << "residual " << residual[i];

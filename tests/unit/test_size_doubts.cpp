@@ -47,20 +47,22 @@ TEST(SizeDoubts, AnotherUnitIsSuspected)
 {
   for (const double factor : {1000.0, 0.001}) {
     SpecimenSizes sizes = plain();
-    for (double *size : {&sizes.radius[0], &sizes.radius[1], &sizes.height[0], &sizes.height[1]}) *size *= factor;
+    for (double *size : {&sizes.radius[0], &sizes.radius[1], &sizes.height[0], &sizes.height[1]})
+      *size *= factor;
     if (factor < 1) { // the plate's travel goes by it
       sizes.gap = 0;
       EXPECT_THROW(taken(sizes), UserError); // approach 0.79 mm through 0.0084 mm
       sizes.gap = 0.79;
     }
-    expect_one(taken(sizes).warnings, factor > 1
-                                          ? "gel.msh stands for -top_radius = 1e+04 mm, -top_height = 4400 mm, "
-                                            "-bottom_radius = 1.25e+04 mm, -bottom_height = 4000 mm: lengths are in "
-                                            "mm, and a rheometer hardly takes a specimen so large; was it meant in "
-                                            "micrometres?"
-                                          : "so small; was it meant in metres?");
+    expect_one(taken(sizes).warnings,
+               factor > 1 ? "gel.msh stands for -top_radius = 1e+04 mm, -top_height = 4400 mm, "
+                            "-bottom_radius = 1.25e+04 mm, -bottom_height = 4000 mm: lengths are in "
+                            "mm, and a rheometer hardly takes a specimen so large; was it meant in "
+                            "micrometres?"
+                          : "so small; was it meant in metres?");
   }
-  expect_one(scene_from_options({{"-bottom_radius", "2000"}}).warnings, "-bottom_radius = 2000 mm: lengths are in mm");
+  expect_one(scene_from_options({{"-bottom_radius", "2000"}}).warnings,
+             "-bottom_radius = 2000 mm: lengths are in mm");
 }
 
 TEST(SizeDoubts, FacesBesideTheAxis)

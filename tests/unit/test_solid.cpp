@@ -54,7 +54,8 @@ template <int order> void expect_exact_tangent(const Viscoelastic<double> &mater
   const auto evaluation = std::make_unique<typename Element::template Evaluation<double>>();
   const auto moved = std::make_unique<typename Element::template Evaluation<D>>();
   const auto K = std::make_unique<typename Element::Matrix>();
-  ASSERT_EQ(evaluation->set({}, brick.cell, material, brick.U, history.data(), step, nullptr, true), PointStatus::ok);
+  ASSERT_EQ(evaluation->set({}, brick.cell, material, brick.U, history.data(), step, nullptr, true),
+            PointStatus::ok);
   const auto R = Element::template forces<double>({}, brick.cell, *evaluation);
   Element::tangent({}, brick.cell, *evaluation, *K);
   const double scale = K->cwiseAbs().maxCoeff();
@@ -69,7 +70,8 @@ template <int order> void expect_exact_tangent(const Viscoelastic<double> &mater
       U[k] = D(brick.U[k]);
       U[k].d[0] = w[k];
     }
-    ASSERT_EQ(moved->set({}, brick.cell, material.cast<D>(), U, lifted.data(), step, nullptr, false), PointStatus::ok);
+    ASSERT_EQ(moved->set({}, brick.cell, material.cast<D>(), U, lifted.data(), step, nullptr, false),
+              PointStatus::ok);
     const auto exact = Element::template forces<D>({}, brick.cell, *moved);
     const typename B::template Vector<double> product = *K * w;
     double worst = 0;

@@ -56,20 +56,22 @@ TEST(SolidContact, RowSumsOfTheMortarMatrixAreItsDiagonal)
   }
 }
 
-/// C1: uniform pressure on non-matching rectangles, one turned against the other, is what the master's shape functions
-/// make of a uniform pressure.
+/// C1: uniform pressure on non-matching rectangles, one turned against the other, is what the master's shape
+/// functions make of a uniform pressure.
 TEST(SolidContact, UniformPressurePassesThePatchTest)
 {
   for (int order : {1, 2})
     for (const double turn : {0.0, 0.3}) {
       const auto flat = [](double x, double y) { return Vector3<double>(x, y, 0); };
-      SolidScene scene(quad_grid(5, 7, 4, 4.2, order, false, flat), quad_grid(5, 4, 2, 1.5, order, true, flat), order);
+      SolidScene scene(quad_grid(5, 7, 4, 4.2, order, false, flat),
+                       quad_grid(5, 4, 2, 1.5, order, true, flat), order);
       scene.state.slave.rotation = turn;
       const double p = 0.8; // the smaller surface as master: it is wholly covered, the slave hangs over
       for (auto &lambda : scene.state.multiplier) lambda = {0, 0, p};
       SolidContact contact(scene.geometry);
       contact.update(scene.state, contact.candidate_pairs(scene.state, 0), false);
-      // The extension beyond the edges carries force too: compare the inner node only, all of whose facets are inside.
+      // The extension beyond the edges carries force too: compare the inner node only, all of whose facets
+      // are inside.
       const Eigen::VectorXd force = axial_forces(contact, scene);
       const Eigen::VectorXd area = nodal_areas(scene.geometry.master, order);
       int compared = 0;
@@ -85,19 +87,20 @@ TEST(SolidContact, UniformPressurePassesThePatchTest)
     }
 }
 
-/// Gauss points of the slave do not see the kinks at the master's facet borders: uniform pressure is passed on to
-/// a few hundredths of a facet's force, and exactly where facets match.
+/// Gauss points of the slave do not see the kinks at the master's facet borders: uniform pressure is passed
+/// on to a few hundredths of a facet's force, and exactly where facets match.
 TEST(SolidContact, AtElementsUniformPressureIsExactOnMatchingFacetsOnly)
 {
   for (int order : {1, 2})
     for (const bool matching : {true, false}) {
       const auto flat = [](double x, double y) { return Vector3<double>(x, y, 0); };
       const int n = matching ? 4 : 5;
-      SolidScene scene(quad_grid(n, n, 2, 2, order, false, flat), quad_grid(4, 4, 2, 2, order, true, flat), order,
-                       false);
+      SolidScene scene(quad_grid(n, n, 2, 2, order, false, flat), quad_grid(4, 4, 2, 2, order, true, flat),
+                       order, false);
       for (auto &lambda : scene.state.multiplier) lambda = {0, 0, 1};
       SolidContact contact(scene.geometry);
-      ASSERT_EQ(contact.update(scene.state, contact.candidate_pairs(scene.state, 0), false).status, MortarStatus::ok);
+      ASSERT_EQ(contact.update(scene.state, contact.candidate_pairs(scene.state, 0), false).status,
+                MortarStatus::ok);
       const Eigen::VectorXd force = axial_forces(contact, scene);
       const Eigen::VectorXd area = nodal_areas(scene.geometry.master, order);
       const double facet = 4.0 / 16, error = (force - area).lpNorm<Eigen::Infinity>() / facet;
@@ -118,18 +121,20 @@ TEST(SolidContact, ForceAndTorqueBalanceOnAFlatInterface)
 {
   for (int order : {1, 2}) {
     const auto flat = [](double x, double y) { return Vector3<double>(x, y, 0); };
-    SolidScene scene(quad_grid(2, 3, 1.1, 1.3, order, false, flat), quad_grid(4, 3, 2.6, 2.4, order, true, flat),
-                     order);
+    SolidScene scene(quad_grid(2, 3, 1.1, 1.3, order, false, flat),
+                     quad_grid(4, 3, 2.6, 2.4, order, true, flat), order);
     scene.state = [&] {
       ContactState<double> state = scene.state;
       state.slave.rotation = 0.7;
       state.slave_axis = {0.1, -0.05};
       for (std::size_t a = 0; a < state.multiplier.size(); ++a)
-        state.multiplier[a] = {0.1 * static_cast<double>(a % 3), -0.2 + 0.05 * static_cast<double>(a % 4), 1.0};
+        state.multiplier[a] = {0.1 * static_cast<double>(a % 3), -0.2 + 0.05 * static_cast<double>(a % 4),
+                               1.0};
       return state;
     }();
     SolidContact contact(scene.geometry);
-    ASSERT_EQ(contact.update(scene.state, contact.candidate_pairs(scene.state, 0), false).status, MortarStatus::ok);
+    ASSERT_EQ(contact.update(scene.state, contact.candidate_pairs(scene.state, 0), false).status,
+              MortarStatus::ok);
     const double c = std::cos(0.7), s = std::sin(0.7);
     Matrix3<double> Q;
     Q << c, -s, 0, s, c, 0, 0, 0, 1;
@@ -171,7 +176,8 @@ TEST(SolidContact, TorqueBalanceOnCurvedFacetsFallsWithTheFacets)
         scene.state.multiplier[a] = {0.3 * X[1], -0.2 + 0.1 * X[0], 1.0 - X[0] * X[0]};
       }
       SolidContact contact(scene.geometry);
-      ASSERT_EQ(contact.update(scene.state, contact.candidate_pairs(scene.state, 0), false).status, MortarStatus::ok);
+      ASSERT_EQ(contact.update(scene.state, contact.candidate_pairs(scene.state, 0), false).status,
+                MortarStatus::ok);
       Vector3<double> force = Vector3<double>::Zero(), moments = force;
       double size = 0;
       for (int a = 0; a < scene.slaves(); ++a) {
@@ -188,8 +194,8 @@ TEST(SolidContact, TorqueBalanceOnCurvedFacetsFallsWithTheFacets)
         }
       }
       const double moment = moments.norm();
-      std::printf("order %d, %d facets a side: moment %.3e, about z %.3e, of %.3e N mm\n", order, n, moment, moments[2],
-                  size);
+      std::printf("order %d, %d facets a side: moment %.3e, about z %.3e, of %.3e N mm\n", order, n, moment,
+                  moments[2], size);
       EXPECT_LT(force.norm(), 1e-13 * size);
       if (before > 0) {
         EXPECT_GT(before / moment, order == 1 ? 3.5 : 7) << "order " << order << ", " << n;
@@ -200,7 +206,8 @@ TEST(SolidContact, TorqueBalanceOnCurvedFacetsFallsWithTheFacets)
   }
 }
 
-/// C2: both plates turn together, any number of times; and turning against each other is omega x r at every node.
+/// C2: both plates turn together, any number of times; and turning against each other is omega x r at every
+/// node.
 TEST(SolidContact, CommonRotationIsNoSlidingAndTheRestIsExact)
 {
   for (int order : {1, 2}) {
@@ -246,8 +253,8 @@ TEST(SolidContact, JacobianIsTheDerivativeInEveryState)
     }
 }
 
-/// What the triangles' rule misses does not depend on where the numbering of the master facet begins, so that it does
-/// not jump when a corner of a cell leaves the slave facet and another one is the first.
+/// What the triangles' rule misses does not depend on where the numbering of the master facet begins, so that
+/// it does not jump when a corner of a cell leaves the slave facet and another one is the first.
 TEST(SolidContact, IntegralsDoNotDependOnWhereAFacetBegins)
 {
   const auto compare = []<int order>() {
@@ -283,15 +290,16 @@ TEST(SolidContact, IntegralsDoNotDependOnWhereAFacetBegins)
   compare.operator()<2>();
 }
 
-/// Nothing jumps where a facet, from a state in which the lines of both surfaces coincide, begins to grow or to shrink.
+/// Nothing jumps where a facet, from a state in which the lines of both surfaces coincide, begins to grow or
+/// to shrink.
 TEST(SolidContact, NothingJumpsAtTheReferenceState)
 {
   const auto shape = [](double x, double y) {
     return Vector3<double>(x + 0.05 * y * y, y + 0.04 * x * y, 0.1 * x * x - 0.05 * x * y);
   };
   for (int order : {1, 2}) {
-    const SolidScene rest(quad_grid(2, 2, 1.6, 1.6, order, false, shape), quad_grid(3, 4, 2.4, 3.2, order, true, shape),
-                          order);
+    const SolidScene rest(quad_grid(2, 2, 1.6, 1.6, order, false, shape),
+                          quad_grid(3, 4, 2.4, 3.2, order, true, shape), order);
     const auto at = [&](double t) {
       SolidScene scene = rest;
       for (int a = 0; a < rest.slaves(); ++a) {

@@ -8,13 +8,14 @@ using namespace tribogel;
 namespace
 {
 
-/// A wall with its crease along y at x = 0, 6 facets of length 0.3 up and 3 of width 0.8 along the crease: it lies on
-/// z = lift for a length, then rises on a cylinder. Its outside is below.
+/// A wall with its crease along y at x = 0, 6 facets of length 0.3 up and 3 of width 0.8 along the crease: it
+/// lies on z = lift for a length, then rises on a cylinder. Its outside is below.
 QuadReference rolled_wall(int order, double lying, double radius, double lift)
 {
   return quad_grid(6, 3, 1.8, 2.4, order, false, [=](double x, double y) {
     const double s = x + 0.9, angle = std::max(0.0, s - lying) / radius;
-    return Vector3<double>(std::min(s, lying) + radius * std::sin(angle), y, lift + radius * (1 - std::cos(angle)));
+    return Vector3<double>(std::min(s, lying) + radius * std::sin(angle), y,
+                           lift + radius * (1 - std::cos(angle)));
   });
 }
 
@@ -36,15 +37,16 @@ SolidScene wall_scene(int order, int rows)
 {
   QuadReference wall = rolled_wall(order, 1.2, 1.5, 0.01);
   SolidParameters parameters{.order = order, .softer_modulus = 0.7};
-  for (std::size_t f = 0; f < wall.facets.size(); ++f) parameters.left_out.push_back(static_cast<int>(f) % 6 >= rows);
+  for (std::size_t f = 0; f < wall.facets.size(); ++f)
+    parameters.left_out.push_back(static_cast<int>(f) % 6 >= rows);
   parameters.on_crease = crease_of(wall);
   return {wall, plane_master(order), parameters};
 }
 
 } // namespace
 
-/// The neighbours' multipliers are extended to the crease, so a constant one loads every node of a lying wall, crease
-/// included, as a uniform pressure does: int N_b dS.
+/// The neighbours' multipliers are extended to the crease, so a constant one loads every node of a lying
+/// wall, crease included, as a uniform pressure does: int N_b dS.
 TEST(SolidWall, ConstantMultiplierIsAUniformPressureUpToTheCrease)
 {
   const PolynomialFriction<double> law{{0.3}, {0}, 1};
@@ -60,7 +62,8 @@ TEST(SolidWall, ConstantMultiplierIsAUniformPressureUpToTheCrease)
     const double share[2][3] = {{0.5, 0.5, 0}, {1.0 / 6, 4.0 / 6, 1.0 / 6}};
     for (int f = 0; f < surface.facet_count(); ++f)
       for (int b = 0; surface.takes_part(f) && b < surface.facet_nodes(); ++b)
-        area[surface.facets[f][b]] += 0.3 * 0.8 * share[order - 1][b % (order + 1)] * share[order - 1][b / (order + 1)];
+        area[surface.facets[f][b]] +=
+            0.3 * 0.8 * share[order - 1][b % (order + 1)] * share[order - 1][b / (order + 1)];
     double slave = 0, master = 0;
     for (int a = 0; a < scene.slaves(); ++a) {
       EXPECT_NEAR(F[3 * a + 2], -1.3 * area[a], 1e-12) << "order " << order << ", node " << a;
@@ -90,12 +93,13 @@ TEST(SolidWall, NodesOfFacetsThatCannotTouchAreHeldAtZero)
 TEST(SolidWall, JacobianIsTheDerivative)
 {
   for (int order : {1, 2})
-    for (const PolynomialFriction<double> &law :
-         {PolynomialFriction<double>{{0.3, 0.2}, {0, 1}, 1}, PolynomialFriction<double>{{0.4, 0.1}, {0, 1}, 0.6, 0.01}})
+    for (const PolynomialFriction<double> &law : {PolynomialFriction<double>{{0.3, 0.2}, {0, 1}, 1},
+                                                  PolynomialFriction<double>{{0.4, 0.1}, {0, 1}, 0.6, 0.01}})
       for (double load : {-2.0, 1.0, 50.0}) {
         SolidScene scene = wall_scene(order, 4);
         make_general(scene, load, 3);
-        EXPECT_LT(jacobian_error(scene, law, order == 1 ? 5 : 31), 1e-8) << "order " << order << ", load " << load;
+        EXPECT_LT(jacobian_error(scene, law, order == 1 ? 5 : 31), 1e-8)
+            << "order " << order << ", load " << load;
       }
 }
 
@@ -110,9 +114,10 @@ TEST(SolidWall, FacetsThatLeanOverTheMasterAndAreNearMayTouch)
       EXPECT_EQ(count % 3, 0);
       return count / 3;
     };
-    EXPECT_EQ(rows(quad_grid(6, 3, 1.8, 2.4, order, false,
-                             [](double x, double y) { return Vector3<double>(0.1 * (x + 0.9), y, x + 0.9); })),
-              0);                                    // upright
+    EXPECT_EQ(
+        rows(quad_grid(6, 3, 1.8, 2.4, order, false,
+                       [](double x, double y) { return Vector3<double>(0.1 * (x + 0.9), y, x + 0.9); })),
+        0);                                          // upright
     EXPECT_EQ(rows(rolled_wall(order, 9, 1, 0)), 6); // lies down
     EXPECT_EQ(rows(rolled_wall(order, 9, 1, 0.29)), 6);
     EXPECT_EQ(rows(rolled_wall(order, 9, 1, 0.31)), 0);

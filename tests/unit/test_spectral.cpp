@@ -22,8 +22,8 @@ Matrix3<D> with_derivative(const Matrix3<double> &A, const Matrix3<double> &dA)
 
 TEST(Elementary, keeps_relative_accuracy_on_both_sides_of_every_case)
 {
-  for (double x :
-       {1e-120, 1e-20, 1e-9, 1e-4, 0.03, 0.2, 0.4999999, 0.5000001, 0.8, 3.0, -1e-9, -0.3, -0.49, -0.51, -4.0}) {
+  for (double x : {1e-120, 1e-20, 1e-9, 1e-4, 0.03, 0.2, 0.4999999, 0.5000001, 0.8, 3.0, -1e-9, -0.3, -0.49,
+                   -0.51, -4.0}) {
     const long double y = x, exact_sinhc = std::sinh(y) / y;
     EXPECT_NEAR(static_cast<double>(sinhc(x) / exact_sinhc), 1, 4e-16) << x;
     long double exact = 0, term = y; // exp(x) - 1 - x by its own series, which alternates for x < 0
@@ -74,7 +74,9 @@ TEST(Spectral, logarithmic_strain_and_its_derivative_are_those_of_the_matrix_log
     const Spectral<D> s = log_strain(dual, D(0.5 * log(dual.determinant())));
     const Matrix3<D> strain = isotropic_function(s, s.values, Vector3<double>::Ones());
     const reference::Matrix exact =
-        reference::logarithm(reference::lift(B) + reference::Complex(0, reference::tiny) * reference::lift(dB)) / 2.0L;
+        reference::logarithm(reference::lift(B) +
+                             reference::Complex(0, reference::tiny) * reference::lift(dB)) /
+        2.0L;
     EXPECT_LT((value(strain) - exact.real().cast<double>()).norm(), 5e-15) << name;
     EXPECT_LT((derivative(strain, 0) - reference::derivative(exact)).norm(), 1e-13) << name;
   }
@@ -83,7 +85,8 @@ TEST(Spectral, logarithmic_strain_and_its_derivative_are_those_of_the_matrix_log
 TEST(Spectral, a_tensor_that_is_not_positive_definite_has_no_finite_logarithm)
 {
   for (const Vector3<double> &x : {Vector3<double>(2, -0.3, 1.4), Vector3<double>(2, 0, 1.4)})
-    EXPECT_FALSE(log_strain<double>(x.asDiagonal().toDenseMatrix(), 0.5 * std::log(x.prod())).values.allFinite());
+    EXPECT_FALSE(
+        log_strain<double>(x.asDiagonal().toDenseMatrix(), 0.5 * std::log(x.prod())).values.allFinite());
 }
 
 TEST(Spectral, mandel_rotation_turns_tensors_and_preserves_contractions)

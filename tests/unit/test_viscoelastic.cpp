@@ -24,8 +24,8 @@ namespace
 
 const double infinity = std::numeric_limits<double>::infinity();
 
-const std::vector<Viscoelastic<double>> materials = {samples::paper(), samples::odd(), samples::hyperelastic(),
-                                                     samples::quadratic()};
+const std::vector<Viscoelastic<double>> materials = {samples::paper(), samples::odd(),
+                                                     samples::hyperelastic(), samples::quadratic()};
 
 template <class A, class B> double difference(const A &a, const B &b)
 {
@@ -43,12 +43,15 @@ TEST(Viscoelastic, stress_energy_and_history_are_those_of_matrix_functions)
           const Matrix3<double> tau = exact.tau.real().cast<double>();
           const double K = 2 * material.equilibrium.bulk_modulus;
           EXPECT_LT(difference(from_mandel(got.response.tau), tau), 1e-14 * (tau.norm() + K)) << name;
-          EXPECT_NEAR(got.response.energy, static_cast<double>(exact.energy.real()), 1e-14 * (K + tau.norm())) << name;
-          EXPECT_NEAR(got.response.dissipated, static_cast<double>(exact.dissipated.real()), 1e-14 * (K + tau.norm()))
+          EXPECT_NEAR(got.response.energy, static_cast<double>(exact.energy.real()), 1e-14 * (K + tau.norm()))
+              << name;
+          EXPECT_NEAR(got.response.dissipated, static_cast<double>(exact.dissipated.real()),
+                      1e-14 * (K + tau.norm()))
               << name;
           for (std::size_t m = 0; m < material.branches.size(); ++m) {
             const Matrix3<double> X = exact.history[m].real().cast<double>();
-            EXPECT_LT(difference(to_mandel(X), Eigen::Map<const Mandel<double>>(&got.history[6 * m])), 5e-14 * X.norm())
+            EXPECT_LT(difference(to_mandel(X), Eigen::Map<const Mandel<double>>(&got.history[6 * m])),
+                      5e-14 * X.norm())
                 << name;
           }
         }
@@ -101,7 +104,8 @@ TEST(Viscoelastic, stress_and_tangent_are_continuous_at_coalescing_stretches)
           for (int seed = 51; seed < 54; ++seed) {
             const Step near = take(material, F + delta * samples::noise(seed), history, 0.37);
             EXPECT_LT(difference(near.response.tau, base.response.tau), scale * (6 * delta + 2e-15)) << delta;
-            EXPECT_LT(difference(near.response.tangent, base.response.tangent), scale * (30 * delta + 1e-14)) << delta;
+            EXPECT_LT(difference(near.response.tangent, base.response.tangent), scale * (30 * delta + 1e-14))
+                << delta;
           }
       }
 }
@@ -154,7 +158,8 @@ TEST(Viscoelastic, small_strain_moduli_are_those_of_all_springs_at_once_and_of_e
         }
       Mandel4<double> expected = 2 * G * Mandel4<double>::Identity();
       expected.topLeftCorner<3, 3>().array() += K - 2 * G / 3;
-      const Mandel4<double> got = take(material, Matrix3<double>::Identity(), initial(material), step).response.tangent;
+      const Mandel4<double> got =
+          take(material, Matrix3<double>::Identity(), initial(material), step).response.tangent;
       EXPECT_LT(difference(got, expected), 2e-15 * expected.norm());
     }
 }

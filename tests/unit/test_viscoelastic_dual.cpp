@@ -23,8 +23,8 @@ namespace
 
 const double infinity = std::numeric_limits<double>::infinity();
 
-const std::vector<Viscoelastic<double>> materials = {samples::paper(), samples::odd(), samples::hyperelastic(),
-                                                     samples::quadratic()};
+const std::vector<Viscoelastic<double>> materials = {samples::paper(), samples::odd(),
+                                                     samples::hyperelastic(), samples::quadratic()};
 
 template <class A, class B> double difference(const A &a, const B &b)
 {
@@ -50,7 +50,8 @@ void visit_inputs(Matrix3<T> &F, std::vector<T> &history, Viscoelastic<T> &mater
   }
 }
 
-template <class T> Eigen::Matrix<T, Eigen::Dynamic, 1> outputs(const Response<T> &r, const std::vector<T> &history)
+template <class T>
+Eigen::Matrix<T, Eigen::Dynamic, 1> outputs(const Response<T> &r, const std::vector<T> &history)
 {
   Eigen::Matrix<T, Eigen::Dynamic, 1> out(8 + history.size());
   out << r.tau, r.energy, r.dissipated,
@@ -61,7 +62,8 @@ template <class T> Eigen::Matrix<T, Eigen::Dynamic, 1> outputs(const Response<T>
 using DirectionalInput = std::function<double(int)>; // the direction's component for input i
 
 Eigen::VectorXd dual_derivative(const Viscoelastic<double> &material, const Matrix3<double> &F,
-                                const std::vector<double> &history, double step, const DirectionalInput &direction)
+                                const std::vector<double> &history, double step,
+                                const DirectionalInput &direction)
 {
   using D = Dual<1>;
   auto law = material.cast<D>();
@@ -74,7 +76,8 @@ Eigen::VectorXd dual_derivative(const Viscoelastic<double> &material, const Matr
   const Step plain = take(material, F, history, step, false);
   const auto out = outputs(response, updated);
   const auto values = outputs(plain.response, plain.history);
-  EXPECT_LE(difference(value(out), values), 1e-13 * values.norm() + 1e-15 * material.equilibrium.bulk_modulus);
+  EXPECT_LE(difference(value(out), values),
+            1e-13 * values.norm() + 1e-15 * material.equilibrium.bulk_modulus);
   return derivative(out, 0);
 }
 
@@ -104,7 +107,8 @@ Eigen::VectorXd complex_step_derivative(const Viscoelastic<double> &material, co
   std::vector<reference::Matrix> levels;
   for (std::size_t m = 0; m < material.branches.size(); ++m) {
     levels.push_back(reference::Matrix::Zero());
-    for (int k = 0; k < 6; ++k) // unit_strain has both off-diagonal entries 1, a Mandel component both 1/sqrt(2)
+    for (int k = 0; k < 6;
+         ++k) // unit_strain has both off-diagonal entries 1, a Mandel component both 1/sqrt(2)
       levels.back() += old[6 * m + k] / std::sqrt(k < 3 ? 1.0L : 2.0L) * reference::unit_strain(k);
   }
   const auto state = law.evaluate(G, levels, step);
@@ -158,7 +162,8 @@ TEST(Viscoelastic, single_dual_derivatives_agree_with_differences)
     };
     const double h = 1e-5;
     const Eigen::VectorXd central = (at(h) - at(-h)) / (2 * h);
-    const Eigen::VectorXd got = dual_derivative(material, F, history, 0.37, [k](int i) { return i == k ? 1 : 0; });
+    const Eigen::VectorXd got =
+        dual_derivative(material, F, history, 0.37, [k](int i) { return i == k ? 1 : 0; });
     EXPECT_LT(difference(got, central), 2e-8 * (1 + central.norm())) << "input " << k;
   }
 }

@@ -66,7 +66,8 @@ TEST(PlateContact, DerivativesAreThoseOfTheRows)
   constexpr double h = 1e-6;
   for (const Vector3<double> &outward : {up, down, Vector3<double>(0.6, 0, 0.8)})
     for (double gap : {-0.01, 0.5}) {
-      const Vector3<double> lambda = -1.7 * outward + Vector3<double>(0.3, -0.2, 0), none = Vector3<double>::Zero();
+      const Vector3<double> lambda = -1.7 * outward + Vector3<double>(0.3, -0.2, 0),
+                            none = Vector3<double>::Zero();
       const auto at = [&](const Vector3<double> &du, const Vector3<double> &dl) {
         return plate_node(gap - outward.dot(du), outward, lambda + dl, 0.7, 5);
       };
@@ -89,7 +90,8 @@ namespace
 {
 
 /// A wall from a crease at R = 5 that lies on Z = lift for a length, then rises on a circle.
-SurfaceReference rolled_wall(int order, const std::vector<double> &s, double lying, double radius, double lift)
+SurfaceReference rolled_wall(int order, const std::vector<double> &s, double lying, double radius,
+                             double lift)
 {
   return curve(order, s, [=](double at) {
     const double angle = std::max(0.0, at - lying) / radius;
@@ -106,14 +108,14 @@ ContactScene wall_scene(int order, int facets, double disorder)
                                      .carries_multiplier = {},
                                      .facets_in_contact = facets,
                                      .starts_at_crease = true};
-  return {rolled_wall(order, breaks(6, 0, 2.1, disorder, 3), 1.5, 0.8, 0.02), flat(order, breaks(11, 3, 8, 0.6, 5), 0),
-          parameters};
+  return {rolled_wall(order, breaks(6, 0, 2.1, disorder, 3), 1.5, 0.8, 0.02),
+          flat(order, breaks(11, 3, 8, 0.6, 5), 0), parameters};
 }
 
 } // namespace
 
-/// The neighbour's multiplier is extended to the crease, so a constant one loads every node of a lying wall, crease
-/// included, as a uniform pressure does: int N_b 2 pi R dR.
+/// The neighbour's multiplier is extended to the crease, so a constant one loads every node of a lying wall,
+/// crease included, as a uniform pressure does: int N_b 2 pi R dR.
 TEST(Crease, ConstantMultiplierIsAUniformPressureUpToTheEdge)
 {
   for (int order : {1, 2}) {
@@ -124,13 +126,15 @@ TEST(Crease, ConstantMultiplierIsAUniformPressureUpToTheEdge)
     ASSERT_EQ(assembled.report.status, MortarStatus::ok);
     const double h = 2.1 / 6;
     const double R0 = 5, R1 = 5 + h, ring = 2 * std::numbers::pi * h / 6;
-    EXPECT_NEAR(assembled.residual[2], -1.3 * ring * (order == 1 ? 2 * R0 + R1 : R0), 1e-12) << "order " << order;
+    EXPECT_NEAR(assembled.residual[2], -1.3 * ring * (order == 1 ? 2 * R0 + R1 : R0), 1e-12)
+        << "order " << order;
     if (order == 2) {
       EXPECT_NEAR(assembled.residual[5], -1.3 * ring * 2 * (R0 + R1), 1e-12);
     }
     double slave = 0, master = 0;
     for (int a = 0; a < scene.slave_nodes(); ++a) slave += assembled.residual[3 * a + 2];
-    for (int m = 0; m < scene.master_nodes(); ++m) master += assembled.residual[3 * (scene.slave_nodes() + m) + 2];
+    for (int m = 0; m < scene.master_nodes(); ++m)
+      master += assembled.residual[3 * (scene.slave_nodes() + m) + 2];
     EXPECT_NEAR(slave, -1.3 * std::numbers::pi * (6.4 * 6.4 - 25), 1e-11); // four lying facets
     EXPECT_NEAR(master, -slave, 1e-11);
   }
@@ -172,9 +176,11 @@ TEST(Crease, JacobianIsExact)
           Eigen::VectorXd w(scene.unknowns());
           for (auto &x : w) x = number(random);
           const auto exact = whole_residual<Dual<1>>(scene, moving(scene, w), pairs, friction);
-          const Eigen::VectorXd product = assembled.jacobian * w, scale = assembled.jacobian.cwiseAbs() * w.cwiseAbs();
+          const Eigen::VectorXd product = assembled.jacobian * w,
+                                scale = assembled.jacobian.cwiseAbs() * w.cwiseAbs();
           for (int i = 0; i < scene.unknowns(); ++i)
-            EXPECT_LE(std::abs(product[i] - exact[i].d[0]), 1e-12 * scale[i]) << "order " << order << ", row " << i;
+            EXPECT_LE(std::abs(product[i] - exact[i].d[0]), 1e-12 * scale[i])
+                << "order " << order << ", row " << i;
         }
       }
 }

@@ -10,8 +10,8 @@
 namespace tribogel::test
 {
 
-/// A box, of the bottom body, with these levels along x, y and z. Its sides are named in the order x low, x high,
-/// y low, y high, z low, z high.
+/// A box, of the bottom body, with these levels along x, y and z. Its sides are named in the order x low, x
+/// high, y low, y high, z low, z high.
 struct Box {
   std::array<std::vector<double>, 3> levels;
   std::array<std::optional<Side>, 6> sides{};

@@ -70,8 +70,10 @@ inline const Sides lower_sides{none, none, none, none, Side::bottom_plate, Side:
 inline const Sides upper_sides{none, none, none, none, Side::slave, Side::top_plate};
 
 /// Above z = 0, 4 mm wide and 2 mm high.
-inline const std::pair<int, Box> upper{top_body, {{even(-2, 2, 4), even(-2, 2, 4), even(0, 2, 2)}, upper_sides}};
-inline const std::pair<int, Box> lower{bottom_body, {{even(-3, 3, 6), even(-3, 3, 6), even(-2, 0, 2)}, lower_sides}};
+inline const std::pair<int, Box> upper{top_body,
+                                       {{even(-2, 2, 4), even(-2, 2, 4), even(0, 2, 2)}, upper_sides}};
+inline const std::pair<int, Box> lower{bottom_body,
+                                       {{even(-3, 3, 6), even(-3, 3, 6), even(-2, 0, 2)}, lower_sides}};
 
 struct Verdict {
   std::string refusal;
@@ -118,7 +120,8 @@ inline void expect_warned(const Verdict &verdict, const std::vector<std::string>
   EXPECT_EQ(verdict.refusal, "");
   std::string all;
   for (const std::string &warning : verdict.warnings) all += warning + "\n";
-  for (const std::string &part : parts) EXPECT_NE(all.find(part), std::string::npos) << part << " is not in: " << all;
+  for (const std::string &part : parts)
+    EXPECT_NE(all.find(part), std::string::npos) << part << " is not in: " << all;
 }
 
 } // namespace tribogel::test

@@ -37,9 +37,10 @@ inline std::string replaced(std::string text, const std::string &from, const std
 inline SerialMesh cubes()
 {
   const std::optional<Side> free;
-  return stacked(
-      {{even(0, 1, 1), even(0, 1, 1), even(-1, 0, 1)}, {free, free, free, free, Side::bottom_plate, Side::master}},
-      {{even(0, 1, 1), even(0, 1, 1), even(0, 1, 1)}, {free, free, free, free, Side::slave, Side::top_plate}});
+  return stacked({{even(0, 1, 1), even(0, 1, 1), even(-1, 0, 1)},
+                  {free, free, free, free, Side::bottom_plate, Side::master}},
+                 {{even(0, 1, 1), even(0, 1, 1), even(0, 1, 1)},
+                  {free, free, free, free, Side::slave, Side::top_plate}});
 }
 
 /// One line that has this part and says what is allowed.

@@ -22,11 +22,13 @@ public:
     X.resize(mesh.vertex.size());
     for (const SerialMesh::Cell &cell : mesh.cell)
       for (const int v : cell.vertex) X[v] = placed(cell.body, {v});
-    for (const SerialMesh::Cell &cell : mesh.cell) add(3, cell.body + 1, cell.body, in_gmsh_order(cell.vertex));
+    for (const SerialMesh::Cell &cell : mesh.cell)
+      add(3, cell.body + 1, cell.body, in_gmsh_order(cell.vertex));
     const auto groups = surface_groups(has_top);
     for (const SerialMesh::Facet &facet : mesh.boundary)
       for (std::size_t g = 0; g < groups.size(); ++g)
-        if (facet.side == groups[g].side) add(2, static_cast<int>(g) + 3, groups[g].body, around(facet.vertex));
+        if (facet.side == groups[g].side)
+          add(2, static_cast<int>(g) + 3, groups[g].body, around(facet.vertex));
     names = {"bottom", "top"};
     for (const SurfaceGroup &group : groups) names.push_back(group.name);
   }
@@ -59,7 +61,8 @@ public:
     out << "$EndEntities\n$Nodes\n1 " << X.size() << " 1 " << X.size() << "\n3 11 0 " << X.size() << "\n";
     for (std::size_t n = 0; n < X.size(); ++n) out << n + 1 << "\n";
     for (const auto &x : X) out << x[0] << " " << x[1] << " " << x[2] << "\n";
-    out << "$EndNodes\n$Elements\n" << elements.size() << " " << elements.size() << " 1 " << elements.size() << "\n";
+    out << "$EndNodes\n$Elements\n"
+        << elements.size() << " " << elements.size() << " 1 " << elements.size() << "\n";
     int tag = 0;
     for (const Element &element : elements)
       out << (element.group < 3 ? 3 : 2) << " " << 10 + element.group << " " << type_of(element) << " 1\n"
@@ -68,9 +71,10 @@ public:
     return out.str();
   }
 
-  /// As Gmsh writes a mesh that it has cut in two: each entity of format_4 as a parent of two, 100 and 200 above it,
-  /// which have its elements in turn; the faces between cells on entities under the volumes, with their groups'
-  /// numbers. Surfaces are numbered from 1 on, as volumes are. `parts` says which of the two parts are written.
+  /// As Gmsh writes a mesh that it has cut in two: each entity of format_4 as a parent of two, 100 and 200
+  /// above it, which have its elements in turn; the faces between cells on entities under the volumes, with
+  /// their groups' numbers. Surfaces are numbered from 1 on, as volumes are. `parts` says which of the two
+  /// parts are written.
   std::string partitioned(const std::vector<int> &parts = {1, 2}) const
   {
     std::ostringstream out;
@@ -90,14 +94,18 @@ public:
     const auto halves = [&](std::size_t g) {
       for (const int part : {1, 2})
         out << 11 + g + 100 * part << " " << dim_of(g) << " " << 11 + g << " 1 " << part << box
-            << (part == 1 ? "1 " + std::to_string(number_of(g)) : "0") << " 0\n"; // the second has its parent's
+            << (part == 1 ? "1 " + std::to_string(number_of(g)) : "0")
+            << " 0\n"; // the second has its parent's
     };
     for (std::size_t g = 2; g < names.size(); ++g) halves(g);
-    for (std::size_t g = 0; g < 2; ++g) out << 301 + g << " 3 " << 11 + g << " 2 1 2" << box << "1 " << g + 1 << " 0\n";
+    for (std::size_t g = 0; g < 2; ++g)
+      out << 301 + g << " 3 " << 11 + g << " 2 1 2" << box << "1 " << g + 1 << " 0\n";
     for (std::size_t g = 0; g < 2; ++g) halves(g);
-    out << "$EndPartitionedEntities\n$Nodes\n1 " << X.size() << " 1 " << X.size() << "\n3 11 1 " << X.size() << "\n";
+    out << "$EndPartitionedEntities\n$Nodes\n1 " << X.size() << " 1 " << X.size() << "\n3 11 1 " << X.size()
+        << "\n";
     for (std::size_t n = 0; n < X.size(); ++n) out << n + 1 << "\n";
-    for (const auto &x : X) out << x[0] << " " << x[1] << " " << x[2] << " 0.1 0.2 0.3\n"; // on a parametric entity
+    for (const auto &x : X)
+      out << x[0] << " " << x[1] << " " << x[2] << " 0.1 0.2 0.3\n"; // on a parametric entity
     std::size_t count = 0;
     std::ostringstream blocks;
     for (std::size_t k = 0; k < elements.size(); ++k) {

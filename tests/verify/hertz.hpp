@@ -1,9 +1,10 @@
-/// A spherical cap pressed on a flat block of the same gel: Hertz's contact, with the finest mesh where they meet.
+/// A spherical cap pressed on a flat block of the same gel: Hertz's contact, with the finest mesh where they
+/// meet.
 ///
-/// The loads are so small (contact radius over sphere radius 1e-4) that finite strain and the difference between
-/// sphere and paraboloid are far below the meshes' errors. The blocks are 20 and 10 times as wide and high as the
-/// contact: that changes the pressure by (a/L)^3 only. The cap is narrower than the block, so that no normal of its rim
-/// misses it.
+/// The loads are so small (contact radius over sphere radius 1e-4) that finite strain and the difference
+/// between sphere and paraboloid are far below the meshes' errors. The blocks are 20 and 10 times as wide and
+/// high as the contact: that changes the pressure by (a/L)^3 only. The cap is narrower than the block, so
+/// that no normal of its rim misses it.
 #pragma once
 
 #include "outlines.hpp"

@@ -1,5 +1,6 @@
-/// GoogleTest on PETSc: options that GoogleTest does not know go to PETSc's database, so that any solver option can be
-/// tried on any test. On several ranks every rank runs every test and only the first one prints.
+/// GoogleTest on PETSc: options that GoogleTest does not know go to PETSc's database, so that any solver
+/// option can be tried on any test. On several ranks every rank runs every test and only the first one
+/// prints.
 #include <gtest/gtest.h>
 
 #include <petscsys.h>

@@ -1,14 +1,14 @@
-/// Manufactured solutions: a smooth finite deformation is chosen, a load that makes it the solution is applied, and the
-/// discrete solution is compared with it.
+/// Manufactured solutions: a smooth finite deformation is chosen, a load that makes it the solution is
+/// applied, and the discrete solution is compared with it.
 ///
 /// The load is the virtual work of the exact stress, sum over nodes a and components i of
 ///
 ///   load_ai = int P(F_exact) : dF_exact[N_a e_i] dV,
 ///
-/// by a quadrature of higher degree than the elements'. By parts it is the work of the body force -Div P and of the
-/// tractions P N on the free sides; stated this way no second derivatives (and no 1/R terms) are written by hand. P
-/// comes from the material, F_exact from dual numbers in the closed form, not from the mesh. The load is constant,
-/// conjugate to the unknowns. Plates and axis are prescribed.
+/// by a quadrature of higher degree than the elements'. By parts it is the work of the body force -Div P and
+/// of the tractions P N on the free sides; stated this way no second derivatives (and no 1/R terms) are
+/// written by hand. P comes from the material, F_exact from dual numbers in the closed form, not from the
+/// mesh. The load is constant, conjugate to the unknowns. Plates and axis are prescribed.
 #pragma once
 
 #include "bulk_scenes.hpp"
@@ -37,7 +37,8 @@ template <class Model> struct Manufactured {
     return X;
   }
 
-  /// Calls visit(cell, N, dN, X, weight) at the points of a Gauss rule in every cell; the weight is the volume.
+  /// Calls visit(cell, N, dN, X, weight) at the points of a Gauss rule in every cell; the weight is the
+  /// volume.
   template <int order, class Visit> static void integrate(const Mesh &mesh, const Visit &visit)
   {
     constexpr int n = dim == 2 ? 6 : 4, nodes = tensor_nodes<dim, order>;
@@ -69,18 +70,18 @@ template <class Model> struct Manufactured {
   template <int order> void add_load(const Problem &problem, double *load) const
   {
     const Viscoelastic<double> &material = problem.scene.bottom.material;
-    integrate<order>(problem.mesh,
-                     [&](const MeshCell &cell, const auto &N, const auto &dN, const Position &X, double weight) {
-                       const Field field = exact(X);
-                       const Matrix3<double> F = kinematics.deformation(X, field);
-                       const Response<double> response = material.evaluate(F, {}, {0}, nullptr, false);
-                       ASSERT_EQ(response.status, PointStatus::ok);
-                       const Matrix3<double> P = from_mandel(response.tau) * F.inverse().transpose();
-                       for (std::size_t n = 0; n < N.size(); ++n)
-                         for (int i = 0; i < 3; ++i)
-                           load[problem.mesh.nodes[cell.node[n]].displacement + i] +=
-                               weight * P.cwiseProduct(kinematics.first(X, field, i, N[n], dN[n])).sum();
-                     });
+    integrate<order>(problem.mesh, [&](const MeshCell &cell, const auto &N, const auto &dN, const Position &X,
+                                       double weight) {
+      const Field field = exact(X);
+      const Matrix3<double> F = kinematics.deformation(X, field);
+      const Response<double> response = material.evaluate(F, {}, {0}, nullptr, false);
+      ASSERT_EQ(response.status, PointStatus::ok);
+      const Matrix3<double> P = from_mandel(response.tau) * F.inverse().transpose();
+      for (std::size_t n = 0; n < N.size(); ++n)
+        for (int i = 0; i < 3; ++i)
+          load[problem.mesh.nodes[cell.node[n]].displacement + i] +=
+              weight * P.cwiseProduct(kinematics.first(X, field, i, N[n], dN[n])).sum();
+    });
   }
 
   /// Over the reference volume.
@@ -91,22 +92,23 @@ template <class Model> struct Manufactured {
   template <int order> Errors errors(const Mesh &mesh, const double *U) const
   {
     Errors e;
-    integrate<order>(mesh, [&](const MeshCell &cell, const auto &N, const auto &dN, const Position &X, double weight) {
-      const Field right = exact(X);
-      for (int i = 0; i < 3; ++i) {
-        double u = -right.u[i];
-        Position gradient;
-        for (int j = 0; j < dim; ++j) gradient[j] = -right.grad[i][j];
-        for (std::size_t n = 0; n < N.size(); ++n) {
-          const double value = U[mesh.nodes[cell.node[n]].displacement + i];
-          u += N[n] * value;
-          for (int j = 0; j < dim; ++j) gradient[j] += dN[n][j] * value;
-        }
-        e.L2 += weight * u * u;
-        for (int j = 0; j < dim; ++j) e.H1 += weight * gradient[j] * gradient[j];
-        if (dim == 2 && i == 0) e.H1 += weight * u * u / (X[0] * X[0]);
-      }
-    });
+    integrate<order>(
+        mesh, [&](const MeshCell &cell, const auto &N, const auto &dN, const Position &X, double weight) {
+          const Field right = exact(X);
+          for (int i = 0; i < 3; ++i) {
+            double u = -right.u[i];
+            Position gradient;
+            for (int j = 0; j < dim; ++j) gradient[j] = -right.grad[i][j];
+            for (std::size_t n = 0; n < N.size(); ++n) {
+              const double value = U[mesh.nodes[cell.node[n]].displacement + i];
+              u += N[n] * value;
+              for (int j = 0; j < dim; ++j) gradient[j] += dN[n][j] * value;
+            }
+            e.L2 += weight * u * u;
+            for (int j = 0; j < dim; ++j) e.H1 += weight * gradient[j] * gradient[j];
+            if (dim == 2 && i == 0) e.H1 += weight * u * u / (X[0] * X[0]);
+          }
+        });
     return {std::sqrt(e.L2), std::sqrt(e.H1)};
   }
 

@@ -18,8 +18,8 @@ inline std::vector<double> equal_points(double a, double b, double h)
   return points;
 }
 
-/// Points from a to b whose edges start with `first` and grow by `ratio`, scaled to fit. A last edge that would be
-/// covered to less than half is not added.
+/// Points from a to b whose edges start with `first` and grow by `ratio`, scaled to fit. A last edge that
+/// would be covered to less than half is not added.
 inline std::vector<double> growing_points(double a, double b, double first, double ratio)
 {
   std::vector<double> sizes, points{a};
@@ -33,8 +33,8 @@ inline std::vector<double> growing_points(double a, double b, double first, doub
   return points;
 }
 
-/// Edges of length h from 0 to `even`, then longer by `ratio` from one to the next, up to `end`; all halved `halvings`
-/// times, so that the meshes are nested.
+/// Edges of length h from 0 to `even`, then longer by `ratio` from one to the next, up to `end`; all halved
+/// `halvings` times, so that the meshes are nested.
 inline std::vector<double> graded_outwards(double even, double h, double end, double ratio, int halvings)
 {
   std::vector<double> points = equal_points(0, even, h);
@@ -70,7 +70,8 @@ inline MeridianBlock upper_body(const std::vector<double> &R, const std::vector<
 }
 
 /// An upper body whose lower face is the bottom of a sphere that touches Z = 0; its plate stays plane.
-inline MeridianBlock spherical_cap(double sphere, const std::vector<double> &R, const std::vector<double> &height)
+inline MeridianBlock spherical_cap(double sphere, const std::vector<double> &R,
+                                   const std::vector<double> &height)
 {
   MeridianBlock cap = upper_body(R, height);
   cap.shape = [sphere, top = height.back()](double r, double z) {

@@ -16,7 +16,8 @@ using Values = std::vector<double>; ///< of the global unknowns
 class Probe
 {
 public:
-  Probe(Problem &of, double step) : problem(of), time(of.state.time + step), shift(1 / step), start(values(of.state.U))
+  Probe(Problem &of, double step)
+      : problem(of), time(of.state.time + step), shift(1 / step), start(values(of.state.U))
   {
   }
 
@@ -53,7 +54,8 @@ public:
   std::array<int, 3> statuses() const
   {
     std::array<int, 3> count{};
-    for (ContactStatus status : problem.contact->lower_face().statuses()) ++count[static_cast<std::size_t>(status)];
+    for (ContactStatus status : problem.contact->lower_face().statuses())
+      ++count[static_cast<std::size_t>(status)];
     return count;
   }
 

@@ -51,7 +51,8 @@ inline Scene lubricated_discs(double radius, double top_height, double bottom_he
 }
 
 /// Runs the scene with bodies of these outlines, nothing written. The schedule must complete.
-inline void run(const Scene &scene, const std::vector<MeridianBlock> &blocks, Problem &problem, Recorder &recorder)
+inline void run(const Scene &scene, const std::vector<MeridianBlock> &blocks, Problem &problem,
+                Recorder &recorder)
 {
   bool completed = false;
   std::string why;

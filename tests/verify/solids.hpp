@@ -15,15 +15,16 @@ namespace tribogel::test
 {
 
 /// A single gel as a solid.
-inline Scene solid_cylinder(double radius, double height, const Viscoelastic<double> &material, int order, int elements)
+inline Scene solid_cylinder(double radius, double height, const Viscoelastic<double> &material, int order,
+                            int elements)
 {
   Scene scene = cylinder(radius, height, material, order, elements);
   scene.model = Model::solid;
   return scene;
 }
 
-/// Moves every node for which `inner` holds by up to `distance` in each direction, midside nodes too: edges and faces
-/// are curved.
+/// Moves every node for which `inner` holds by up to `distance` in each direction, midside nodes too: edges
+/// and faces are curved.
 template <class Inner> void jostle(Mesh &mesh, double distance, const Inner &inner)
 {
   std::mt19937 random(11);

@@ -22,7 +22,8 @@ class SolverOptions
 public:
   explicit SolverOptions(std::vector<std::pair<std::string, std::string>> given) : options(std::move(given))
   {
-    for (const auto &[name, text] : options) EXPECT_EQ(PetscOptionsSetValue(nullptr, name.c_str(), text.c_str()), 0);
+    for (const auto &[name, text] : options)
+      EXPECT_EQ(PetscOptionsSetValue(nullptr, name.c_str(), text.c_str()), 0);
   }
   SolverOptions(const SolverOptions &) = delete;
   SolverOptions &operator=(const SolverOptions &) = delete;

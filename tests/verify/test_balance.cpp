@@ -1,6 +1,6 @@
-/// C3, force and torque balance: in each row of a run of the paper scene the top plate's reactions equal the resultants
-/// of the contact tractions, and those of the bottom plate. The differences are sums of the residuals that Newton's
-/// method leaves in the gels, so they follow the solver's tolerance and nothing else.
+/// C3, force and torque balance: in each row of a run of the paper scene the top plate's reactions equal the
+/// resultants of the contact tractions, and those of the bottom plate. The differences are sums of the
+/// residuals that Newton's method leaves in the gels, so they follow the solver's tolerance and nothing else.
 #include "scenes.hpp"
 #include "solver_options.hpp"
 
@@ -56,7 +56,8 @@ public:
   double force = 0, torque = 0;
 };
 
-/// Largest mismatches over the rows, of the top plate with the contact and of the two plates, over the largest N and T.
+/// Largest mismatches over the rows, of the top plate with the contact and of the two plates, over the
+/// largest N and T.
 std::array<double, 2> mismatch(const Scene &scene, double tolerance)
 {
   const SolverOptions options(newton_tolerance(tolerance));

@@ -1,6 +1,6 @@
-/// Energy of one gel between its plates, W7 without contact: work of the plates = stored + dissipated. The work is the
-/// trapezoidal sum of N d(approach) + T d(rotation) over the steps. A hyperelastic gel errs by the quadrature alone,
-/// second order in dt; a viscoelastic one by the time rule, first order or second.
+/// Energy of one gel between its plates, W7 without contact: work of the plates = stored + dissipated. The
+/// work is the trapezoidal sum of N d(approach) + T d(rotation) over the steps. A hyperelastic gel errs by
+/// the quadrature alone, second order in dt; a viscoelastic one by the time rule, first order or second.
 #include "bulk_scenes.hpp"
 
 namespace tribogel::test
@@ -30,7 +30,8 @@ Balance balance(const Viscoelastic<double> &material, double dt, TimeRule rule =
   Balance sum{0, problem.state.stored, problem.state.dissipated};
   for (std::size_t n = 1; n < recorder.rows.size(); ++n) {
     const HistoryRow &now = recorder.rows[n], &last = recorder.rows[n - 1];
-    sum.work += 0.5 * (now.measurement.normal_force + last.measurement.normal_force) * (now.approach - last.approach) +
+    sum.work += 0.5 * (now.measurement.normal_force + last.measurement.normal_force) *
+                    (now.approach - last.approach) +
                 0.5 * (now.measurement.torque + last.measurement.torque) * (now.rotation - last.rotation);
   }
   std::printf("dt %.5f: work %.6f stored %.6f dissipated %.6f imbalance %.3e\n", dt, sum.work, sum.stored,

@@ -1,7 +1,7 @@
-/// A bulk that remembers its last evaluations and one without room for that answer the same, bit for bit, whatever is
-/// asked in whatever order: tangents before and after residuals, forces of the top plate's cells between them, another
-/// state, length of a step or history at the same displacements, and an end of the step elsewhere than at the last
-/// state.
+/// A bulk that remembers its last evaluations and one without room for that answer the same, bit for bit,
+/// whatever is asked in whatever order: tangents before and after residuals, forces of the top plate's cells
+/// between them, another state, length of a step or history at the same displacements, and an end of the step
+/// elsewhere than at the last state.
 #include "solids.hpp"
 
 namespace tribogel::test
@@ -56,7 +56,8 @@ public:
     MatInfo info;
     PetscScalar *values;
     EXPECT_EQ(MatZeroEntries(given.jacobian), 0);
-    EXPECT_EQ(asked->AddJacobian(state_of(given.mesh, size).data(), history, {step}, given.jacobian, failure), 0);
+    EXPECT_EQ(asked->AddJacobian(state_of(given.mesh, size).data(), history, {step}, given.jacobian, failure),
+              0);
     EXPECT_FALSE(failure);
     EXPECT_EQ(MatAssemblyBegin(given.jacobian, MAT_FINAL_ASSEMBLY), 0);
     EXPECT_EQ(MatAssemblyEnd(given.jacobian, MAT_FINAL_ASSEMBLY), 0);
@@ -120,7 +121,8 @@ void expect_same(const Scene &scene)
   ASSERT_EQ(first.answers.size(), second.answers.size());
   for (std::size_t k = 0; k < first.answers.size(); ++k) {
     ASSERT_FALSE(first.answers[k].empty());
-    EXPECT_TRUE(first.answers[k] == second.answers[k]) << "answer " << k << ", order " << scene.mesh.element_order;
+    EXPECT_TRUE(first.answers[k] == second.answers[k])
+        << "answer " << k << ", order " << scene.mesh.element_order;
   }
 }
 

@@ -1,14 +1,16 @@
 /// What the discrete bulk must reproduce to round-off, whatever the mesh.
 ///
-/// Patch: on lubricated plates a compressed cylinder is uniform, F = diag(mu, mu, lambda), with mu from sigma_r = 0.
-/// With the principal Kirchhoff stresses of the Ogden law, b = J^(-1/3) (mu, mu, lambda) and J = mu^2 lambda:
+/// Patch: on lubricated plates a compressed cylinder is uniform, F = diag(mu, mu, lambda), with mu from
+/// sigma_r = 0. With the principal Kirchhoff stresses of the Ogden law, b = J^(-1/3) (mu, mu, lambda) and J =
+/// mu^2 lambda:
 ///
-///   sum_r G_r (b_1^alpha_r - (2 b_1^alpha_r + b_3^alpha_r)/3) + K/2 (J^2 - 1) = 0,   N = -pi a^2 tau_3/lambda
+///   sum_r G_r (b_1^alpha_r - (2 b_1^alpha_r + b_3^alpha_r)/3) + K/2 (J^2 - 1) = 0,   N = -pi a^2
+///   tau_3/lambda
 ///
 /// solved here by bisection, on a mesh whose inner vertices are moved.
 ///
-/// Frame, B8: turning and lifting the whole body leaves every nodal force as it is. In any state at all the nodal
-/// forces have no resultant along Z and no moment about Z.
+/// Frame, B8: turning and lifting the whole body leaves every nodal force as it is. In any state at all the
+/// nodal forces have no resultant along Z and no moment about Z.
 #include "bulk_scenes.hpp"
 
 #include <numbers>
@@ -29,7 +31,8 @@ double kirchhoff(const Ogden<double> &ogden, double mu, int A)
   double tau = ogden.bulk_modulus / 2 * (J * J - 1);
   for (std::size_t r = 0; r < ogden.moduli.size(); ++r) {
     const double alpha = ogden.exponents[r];
-    tau += ogden.moduli[r] * (std::pow(b[A], alpha) - (2 * std::pow(b[0], alpha) + std::pow(b[2], alpha)) / 3);
+    tau +=
+        ogden.moduli[r] * (std::pow(b[A], alpha) - (2 * std::pow(b[0], alpha) + std::pow(b[2], alpha)) / 3);
   }
   return tau;
 }
@@ -71,7 +74,8 @@ struct Forces {
 Forces forces(const Problem &problem, const std::vector<double> &U)
 {
   Forces f{std::vector<double>(U.size(), 0), std::vector<double>(U.size(), 0)};
-  EXPECT_FALSE(problem.bulk->AddResidual(U.data(), problem.state.history, {0.37}, f.F.data(), f.magnitude.data()));
+  EXPECT_FALSE(
+      problem.bulk->AddResidual(U.data(), problem.state.history, {0.37}, f.F.data(), f.magnitude.data()));
   return f;
 }
 
@@ -160,8 +164,8 @@ TEST(bulk_patch, ForcesOfAnyStateBalance)
         sum[i] += f.F[node.displacement + i];
         size[i] += f.magnitude[node.displacement + i];
       }
-    std::printf("order %d: moment %.2e of %.2e, axial resultant %.2e of %.2e\n", order, sum[1], size[1], sum[2],
-                size[2]);
+    std::printf("order %d: moment %.2e of %.2e, axial resultant %.2e of %.2e\n", order, sum[1], size[1],
+                sum[2], size[2]);
     EXPECT_GT(std::abs(sum[0]), 1e-3 * size[0]); // the radial ones are no resultant
     for (int i : {1, 2}) EXPECT_LT(std::abs(sum[i]), 1e-14 * size[i]);
   }

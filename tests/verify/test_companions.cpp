@@ -1,5 +1,6 @@
-/// Companions of a run, -error_estimate: one that differs in nothing gives the run's numbers; one that fails says so
-/// and throws nothing; the meshes and tolerances that are meant; errors of a coarse run are within what is estimated.
+/// Companions of a run, -error_estimate: one that differs in nothing gives the run's numbers; one that fails
+/// says so and throws nothing; the meshes and tolerances that are meant; errors of a coarse run are within
+/// what is estimated.
 #include "observe/error_estimate.hpp"
 #include "probe.hpp"
 #include "solver_options.hpp"
@@ -94,8 +95,8 @@ TEST(companions, AreStoppedOnRequest)
   EXPECT_EQ(companion.failure, "enough");
 }
 
-/// The limits of N and T per rate are those of tests/README.md, Limits of the mesh. Fails with meshes of 2 and 4 times
-/// the edges alone (order 2, 10 elements).
+/// The limits of N and T per rate are those of tests/README.md, Limits of the mesh. Fails with meshes of 2
+/// and 4 times the edges alone (order 2, 10 elements).
 TEST(companions, ErrorsOfTheRheometerAreWithinTheEstimate)
 {
   constexpr double force = 290.4435, torque = 11.4421;
@@ -111,17 +112,18 @@ TEST(companions, ErrorsOfTheRheometerAreWithinTheEstimate)
     run(scene, problem, recorder);
     ErrorEstimate estimate;
     int ended = 0;
-    ASSERT_EQ(
-        EstimateErrors(
-            PETSC_COMM_WORLD, scene, nullptr, recorder, never, [&ended](const Companion &) { ++ended; }, estimate),
-        0);
+    ASSERT_EQ(EstimateErrors(
+                  PETSC_COMM_WORLD, scene, nullptr, recorder, never, [&ended](const Companion &) { ++ended; },
+                  estimate),
+              0);
     EXPECT_EQ(ended, static_cast<int>(estimate.companions.size()));
     ASSERT_EQ(estimate.phases.size(), 1u);
     const Measurement &m = recorder.phases[0].measurement;
     const double errors[] = {m.normal_force - force, m.torque - 0.01 * torque};
     for (std::size_t load = 0; load < 2; ++load) {
       const double estimated = estimate.phases[0][load].mesh.error;
-      std::printf("order %d, %d elements: error %.2e, estimated %.2e\n", order, elements, errors[load], estimated);
+      std::printf("order %d, %d elements: error %.2e, estimated %.2e\n", order, elements, errors[load],
+                  estimated);
       EXPECT_GT(estimated, std::abs(errors[load]));
       EXPECT_LT(estimated, 20 * std::abs(errors[load]));
     }

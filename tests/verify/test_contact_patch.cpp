@@ -1,8 +1,8 @@
-/// C1, contact patch test through the whole program: two discs on lubricated plates, pressed together by up to 20 %,
-/// with meshes that do not match across the contact. The exact state is homogeneous uniaxial compression; the numbers
-/// come from its scalar equations (uniform_compression.hpp): stretches of each body, one pressure p at every contact
-/// node, N = p times the current area, and affine positions of all nodes. All of it holds to round-off, which is
-/// machine epsilon times K/p, 1e-13, times ten.
+/// C1, contact patch test through the whole program: two discs on lubricated plates, pressed together by up
+/// to 20 %, with meshes that do not match across the contact. The exact state is homogeneous uniaxial
+/// compression; the numbers come from its scalar equations (uniform_compression.hpp): stretches of each body,
+/// one pressure p at every contact node, N = p times the current area, and affine positions of all nodes. All
+/// of it holds to round-off, which is machine epsilon times K/p, 1e-13, times ten.
 #include "uniform_compression.hpp"
 
 #include <algorithm>
@@ -78,8 +78,8 @@ void one_gel(int order, const PolynomialFriction<double> &friction)
   expect_uniform(problem, recorder, both);
 }
 
-/// Two gels whose radii are chosen so that they meet at the last moment: until then the wider one overhangs and the
-/// faces slide on each other. The end state does not depend on the path.
+/// Two gels whose radii are chosen so that they meet at the last moment: until then the wider one overhangs
+/// and the faces slide on each other. The end state does not depend on the path.
 void two_gels(int order, double top_stiffness)
 {
   const SolverOptions options(fixed_steps(1.5, 1e-13));

@@ -1,5 +1,5 @@
-/// The preconditioner `contact`: what it leaves out of the condensed system costs a Krylov method two or three
-/// iterations when the rest is solved exactly, in every contact state; and it changes no result.
+/// The preconditioner `contact`: what it leaves out of the condensed system costs a Krylov method two or
+/// three iterations when the rest is solved exactly, in every contact state; and it changes no result.
 #include "probe.hpp"
 #include "solver_options.hpp"
 #include "wall_scenes.hpp"
@@ -47,7 +47,8 @@ Outcome outcome(const Scene &scene, const OptionList &options, int *rolled = nul
   Problem problem;
   Recorder recorder("");
   run(scene, problem, recorder);
-  Outcome sum{recorder.rows.back().measurement.normal_force, recorder.rows.back().measurement.torque, 0, 0, 0, 0};
+  Outcome sum{
+      recorder.rows.back().measurement.normal_force, recorder.rows.back().measurement.torque, 0, 0, 0, 0};
   sum.newton = problem.counts.newton_iterations;
   sum.linear = problem.counts.linear_iterations;
   if (rolled)
@@ -62,14 +63,14 @@ Outcome outcome(const Scene &scene, const OptionList &options, int *rolled = nul
 
 } // namespace
 
-/// Without friction tangents are free, with much of it all is held; Coulomb's law turns in between has both, and open
-/// nodes at the rim.
+/// Without friction tangents are free, with much of it all is held; Coulomb's law turns in between has both,
+/// and open nodes at the rim.
 TEST(contact_pc, LeavesLittleToTheKrylovMethod)
 {
   const auto check = [](const char *name, const Scene &scene) {
     const Outcome exact = outcome(scene, direct()), condensed = outcome(scene, with_contact_pc("lu"));
-    std::printf("%-12s N %.6f N, T %.6f N mm; %d linear in %d Newton iterations; %d slip, %d stick\n", name, exact.N,
-                exact.T, condensed.linear, condensed.newton, condensed.slipping, condensed.sticking);
+    std::printf("%-12s N %.6f N, T %.6f N mm; %d linear in %d Newton iterations; %d slip, %d stick\n", name,
+                exact.N, exact.T, condensed.linear, condensed.newton, condensed.slipping, condensed.sticking);
     EXPECT_NEAR(condensed.N, exact.N, 1e-7 * exact.N) << name;
     EXPECT_NEAR(condensed.T, exact.T, 1e-7 * exact.N * scene.top.radius) << name;
     EXPECT_LE(condensed.linear, 4 * condensed.newton) << name;
@@ -95,7 +96,8 @@ TEST(contact_pc, TakesPlatesToo)
   EXPECT_LE(condensed.linear, 4 * condensed.newton);
 }
 
-/// A wall that rolls on is a contact surface of its own, and its first row of multipliers presses on the crease too.
+/// A wall that rolls on is a contact surface of its own, and its first row of multipliers presses on the
+/// crease too.
 TEST(contact_pc, FollowsAWallThatRollsOn)
 {
   Scene scene = mushroom(1);
@@ -108,8 +110,8 @@ TEST(contact_pc, FollowsAWallThatRollsOn)
   for (OptionList *options : {&straight, &contact}) options->emplace_back("-ts_dt", "1");
   int rolled = 0;
   const Outcome exact = outcome(scene, straight, &rolled), condensed = outcome(scene, contact);
-  std::printf("N %.6f N, T %.6f N mm; %d wall nodes pressed; %d linear in %d Newton iterations\n", exact.N, exact.T,
-              rolled, condensed.linear, condensed.newton);
+  std::printf("N %.6f N, T %.6f N mm; %d wall nodes pressed; %d linear in %d Newton iterations\n", exact.N,
+              exact.T, rolled, condensed.linear, condensed.newton);
   EXPECT_GT(rolled, 2);
   EXPECT_GT(exact.T, 1);
   EXPECT_NEAR(condensed.N, exact.N, 1e-7 * exact.N);
@@ -135,7 +137,8 @@ TEST(contact_pc, MultigridGivesTheSameForces)
   }
 }
 
-/// Products by single rows are for smoothers that do not factorise: PETSc does that by rows of one pattern. K/G = 10.
+/// Products by single rows are for smoothers that do not factorise: PETSc does that by rows of one pattern.
+/// K/G = 10.
 TEST(contact_pc, SmoothersMayFactorise)
 {
   Scene scene = pressed({{0.05}, {1}}, {0, 0.1});
@@ -149,14 +152,15 @@ TEST(contact_pc, SmoothersMayFactorise)
   options.emplace_back("-condensed_mg_levels_ksp_type", "richardson");
   options.emplace_back("-condensed_mg_levels_pc_type", "ilu");
   const Outcome ilu = outcome(scene, options);
-  std::printf("linear iterations: Jacobi %d, ILU %d, in %d Newton iterations\n", jacobi.linear, ilu.linear, ilu.newton);
+  std::printf("linear iterations: Jacobi %d, ILU %d, in %d Newton iterations\n", jacobi.linear, ilu.linear,
+              ilu.newton);
   EXPECT_GT(ilu.newton, 1); // the second matrix is the first one to be factorised anew
   EXPECT_NEAR(ilu.N, jacobi.N, 1e-7 * jacobi.N);
   EXPECT_NEAR(ilu.T, jacobi.T, 1e-7 * jacobi.N * scene.top.radius);
 }
 
-/// Elements of order 2: what multigrid begins with, fields of order 1 on the same cells, is part of what it is solved
-/// in, and better than what it finds without knowing of cells. K/G = 10.
+/// Elements of order 2: what multigrid begins with, fields of order 1 on the same cells, is part of what it
+/// is solved in, and better than what it finds without knowing of cells. K/G = 10.
 TEST(contact_pc, OrderTwoBeginsWithOrderOne)
 {
   Scene scene = pressed({{0.05}, {1}}, {0, 0.1});

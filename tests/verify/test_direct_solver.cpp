@@ -1,5 +1,5 @@
-/// Factors that outlive their matrix: solutions are those of the matrix at hand, and factorisations fewer than solves
-/// for as long as the matrix changes little.
+/// Factors that outlive their matrix: solutions are those of the matrix at hand, and factorisations fewer
+/// than solves for as long as the matrix changes little.
 #include "solve/direct_solver.hpp"
 #include "support/petsc_handles.hpp"
 
@@ -63,7 +63,8 @@ public:
     for (PetscInt i = 0; i < size; ++i)
       for (PetscInt j = 0; j < size; ++j) {
         const PetscInt k = i * size + j;
-        PetscCall(MatSetValue(A, i, j, scale * (first[k] + along * drift[k] + aside * other[k]), INSERT_VALUES));
+        PetscCall(
+            MatSetValue(A, i, j, scale * (first[k] + along * drift[k] + aside * other[k]), INSERT_VALUES));
       }
     PetscCall(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
     PetscCall(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
@@ -111,8 +112,8 @@ TEST(direct_solver, FactorisesEveryMatrixWithPreonly)
   EXPECT_EQ(systems.solver.factorisations(), 5);
 }
 
-/// Factors of the matrix itself leave one iteration, older ones more. They are kept as long as the last solve took
-/// fewer than the mean, factorisation included.
+/// Factors of the matrix itself leave one iteration, older ones more. They are kept as long as the last solve
+/// took fewer than the mean, factorisation included.
 TEST(direct_solver, KeepsFactorsWhileTheyPay)
 {
   Systems systems;

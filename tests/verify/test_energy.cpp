@@ -1,7 +1,7 @@
-/// W7, energy of the paper scene: work of the plates = stored + viscous dissipation + frictional dissipation. The
-/// residual is of backward Euler and the sums in time, first order in dt (second where no dashpot works), down to a
-/// floor of the mesh: the contact holds the weighted gap, so sliding surfaces leave the normal tractions a little work.
-/// Where they stick there is none.
+/// W7, energy of the paper scene: work of the plates = stored + viscous dissipation + frictional dissipation.
+/// The residual is of backward Euler and the sums in time, first order in dt (second where no dashpot works),
+/// down to a floor of the mesh: the contact holds the weighted gap, so sliding surfaces leave the normal
+/// tractions a little work. Where they stick there is none.
 #include "scenes.hpp"
 #include "solver_options.hpp"
 
@@ -41,7 +41,8 @@ std::vector<EnergyBalance> balances(const Scene &scene, double dt)
   Problem problem;
   Recorder recorder("");
   run(scene, problem, recorder);
-  EXPECT_EQ(recorder.rows.size(), 1u + static_cast<std::size_t>(std::lround(scene.schedule.back().end_time / dt)))
+  EXPECT_EQ(recorder.rows.size(),
+            1u + static_cast<std::size_t>(std::lround(scene.schedule.back().end_time / dt)))
       << "a step was cut, the order cannot be measured";
   std::vector<EnergyBalance> ends;
   for (std::size_t n = 1; n < recorder.rows.size(); ++n) {
@@ -50,8 +51,9 @@ std::vector<EnergyBalance> balances(const Scene &scene, double dt)
     EXPECT_GE(now.friction, last.friction - 1e-12 * now.work); // round-off where there is no friction
     if (!recorder.rows[n].report.ends_phase) continue;
     ends.push_back(now);
-    std::printf("step %.5f s, phase %zu: work %.5f stored %.5f viscous %.5f friction %.5f N mm, residual %.3e\n", dt,
-                ends.size(), now.work, now.stored, now.viscous, now.friction, now.residual() / now.work);
+    std::printf(
+        "step %.5f s, phase %zu: work %.5f stored %.5f viscous %.5f friction %.5f N mm, residual %.3e\n", dt,
+        ends.size(), now.work, now.stored, now.viscous, now.friction, now.residual() / now.work);
   }
   return ends;
 }

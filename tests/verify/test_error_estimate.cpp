@@ -1,7 +1,7 @@
-/// SDIRK2's step control: the largest error of N(t) lies within a factor of three of `-time_tolerance`, over one
-/// and a half decades of it, and so does that of T(t) where its rise is resolved; the method restarts at each jump with
-/// a short step. Fails with an eighth of the estimate or four times it, and if a phase goes on with the last one's
-/// step.
+/// SDIRK2's step control: the largest error of N(t) lies within a factor of three of `-time_tolerance`, over
+/// one and a half decades of it, and so does that of T(t) where its rise is resolved; the method restarts at
+/// each jump with a short step. Fails with an eighth of the estimate or four times it, and if a phase goes on
+/// with the last one's step.
 #include "probe.hpp"
 #include "solver_options.hpp"
 
@@ -68,8 +68,8 @@ TEST(error_estimate, OfForceAndTorqueIsWithinAFactorOfThree)
       for (std::size_t i = 0; i < 2; ++i)
         error[i] = std::max(error[i], 100 * std::abs(loads(row)[i] - exact[i]) / largest[i]);
     }
-    std::printf("tolerance %g %%: %zu steps, errors of N %.2e %%, T %.2e %%\n", tolerance, rows.size() - 1, error[0],
-                error[1]);
+    std::printf("tolerance %g %%: %zu steps, errors of N %.2e %%, T %.2e %%\n", tolerance, rows.size() - 1,
+                error[0], error[1]);
     const double worst = std::max(error[0], error[1]);
     EXPECT_LT(worst, 3 * tolerance);
     EXPECT_GT(worst, tolerance / 3);

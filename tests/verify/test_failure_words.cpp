@@ -31,7 +31,8 @@ TEST(failure_words, NameThePartOfTheGel)
   expect_part(words(scene, top_body, {10, 2.2, 0}), "side wall of the top gel");
   expect_part(words(scene, top_body, {3, 2.2, 0}), "inside the top gel");
   expect_part(words(scene, top_body, {9.94, 0, 0}), "rolls over and folds");
-  expect_part(describe_end(scene, {top_body, {9.94, 0, 0}, false}, 0.13), "side wall, which may be about to fold;");
+  expect_part(describe_end(scene, {top_body, {9.94, 0, 0}, false}, 0.13),
+              "side wall, which may be about to fold;");
   expect_part(words(scene, top_body, {9.94, 0, 0}), "compressed by 13 % of their height");
   expect_part(words(scene, top_body, {9.94, 0, 0}), "What may help: less compression");
   EXPECT_EQ(words(scene, top_body, {9.94, 0, 0}, 0).find("compressed"), std::string::npos);

@@ -1,5 +1,6 @@
-/// The first touch: any travel and any radius of the bottom gel that is not less than the top's. In space N tends to
-/// the axisymmetric model's, within what the mesh leaves, and is linear in the travel down to round-off.
+/// The first touch: any travel and any radius of the bottom gel that is not less than the top's. In space N
+/// tends to the axisymmetric model's, within what the mesh leaves, and is linear in the travel down to
+/// round-off.
 #include "scenes.hpp"
 
 #include <algorithm>
@@ -62,7 +63,8 @@ TEST(first_touch, AnyRadiusOfTheBottomGel)
     const double equal = N(Model::solid, order, travel, 10);
     for (const double radius : {10.000001, 10.01, 10.2, 10.7}) {
       if (order == 2 && radius != 10.01) continue;
-      const double solid = N(Model::solid, order, travel, radius), flat = N(Model::axisymmetric, 2, travel, radius);
+      const double solid = N(Model::solid, order, travel, radius),
+                   flat = N(Model::axisymmetric, 2, travel, radius);
       EXPECT_NEAR(solid / flat, 1, mesh_error[order]) << order << ' ' << radius;
       EXPECT_NEAR(solid / equal, 1, 0.2 * (radius - 10) + 1e-7) << order << ' ' << radius;
     }
@@ -95,8 +97,8 @@ TEST(first_touch, HalfPlaneOfNearlyEqualRadii)
   EXPECT_NEAR(at[1].normal_force / at[0].normal_force, 1, 1e-6);
 }
 
-/// The bottom gel's radii: what the paper's scene has is kept; nothing is narrower than the refined edges under the
-/// top's rim, but for edges at the outer wall that are as fine as at the top's.
+/// The bottom gel's radii: what the paper's scene has is kept; nothing is narrower than the refined edges
+/// under the top's rim, but for edges at the outer wall that are as fine as at the top's.
 TEST(first_touch, NoRingIsNarrow)
 {
   Scene scene = pressed(Model::solid, 2, 0.79, 12.5);
@@ -118,7 +120,8 @@ TEST(first_touch, NoRingIsNarrow)
           widest = std::max(widest, R[k] - R[k - 1]);
         }
         EXPECT_EQ(R.back(), radius);
-        EXPECT_GT(narrowest, 0.9 * widest / std::max(8.5, grading)) << radius << ' ' << travel << ' ' << grading;
+        EXPECT_GT(narrowest, 0.9 * widest / std::max(8.5, grading))
+            << radius << ' ' << travel << ' ' << grading;
       }
 }
 

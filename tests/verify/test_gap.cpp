@@ -1,7 +1,7 @@
-/// An initial gap: before the gels touch the contact carries exactly nothing although the plate moves and turns, and
-/// the plates feel the round-off of a rigid motion only (K times the last bits of the strain); afterwards the state is
-/// that of the scene without a gap whose plate travelled the gap less. Exact for elastic gels at rest or in steady
-/// rotation, which remember no path.
+/// An initial gap: before the gels touch the contact carries exactly nothing although the plate moves and
+/// turns, and the plates feel the round-off of a rigid motion only (K times the last bits of the strain);
+/// afterwards the state is that of the scene without a gap whose plate travelled the gap less. Exact for
+/// elastic gels at rest or in steady rotation, which remember no path.
 #include "scenes.hpp"
 #include "solver_options.hpp"
 
@@ -103,8 +103,8 @@ TEST(gap, NothingTakesAStepAPhase)
   }
 }
 
-/// No step goes over the touch, however late in a phase it is, and what follows takes the steps of a phase. N is
-/// proportional to the travel that is left.
+/// No step goes over the touch, however late in a phase it is, and what follows takes the steps of a phase. N
+/// is proportional to the travel that is left.
 TEST(gap, ClosedLateIsMetWithoutFailures)
 {
   std::vector<double> stiffness;

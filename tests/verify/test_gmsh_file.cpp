@@ -41,7 +41,8 @@ std::string exchanged(const std::string &text, const std::string &first, const s
   };
   const auto [a, b] = section(first);
   const auto [c, d] = section(second);
-  return text.substr(0, a) + text.substr(c, d - c) + text.substr(b, c - b) + text.substr(a, b - a) + text.substr(d);
+  return text.substr(0, a) + text.substr(c, d - c) + text.substr(b, c - b) + text.substr(a, b - a) +
+         text.substr(d);
 }
 
 /// Of format 2.2 with nodes on points (the point's number follows) and surfaces (and two parameters).
@@ -73,10 +74,11 @@ TEST(gmsh_file, IsTheSameInAllThatGmshWrites)
   const GmshWriter writer(serial, true, 8);
   const std::string two = writer.format_2(), four = writer.format_4(), parts = writer.partitioned();
   const SerialMesh mesh = read(two, 1);
-  for (const std::string &text : {four, parts, with_parameters(two), exchanged(two, "PhysicalNames", "Elements"),
-                                  exchanged(four, "PhysicalNames", "Elements"), exchanged(two, "Nodes", "Elements"),
-                                  exchanged(parts, "Nodes", "Elements"), with_carriage_returns(two),
-                                  with_carriage_returns(parts), "\xEF\xBB\xBF" + two})
+  for (const std::string &text :
+       {four, parts, with_parameters(two), exchanged(two, "PhysicalNames", "Elements"),
+        exchanged(four, "PhysicalNames", "Elements"), exchanged(two, "Nodes", "Elements"),
+        exchanged(parts, "Nodes", "Elements"), with_carriage_returns(two), with_carriage_returns(parts),
+        "\xEF\xBB\xBF" + two})
     expect_equal(read(text, 1), mesh);
 }
 
@@ -88,11 +90,11 @@ TEST(gmsh_file, ListsTheGroupsThatItHas)
   const std::string two = writer.format_2(), four = writer.format_4();
   const std::string surfaces = "surfaces 'top_plate', 'bottom_plate', 'top_contact', 'bottom_contact'";
   for (const std::string &text : {two, four, exchanged(two, "PhysicalNames", "Elements")}) {
-    expect_refusal(
-        refusal(replaced(text, "\"bottom\"", "\"Bottom\"")),
-        "no physical volume 'bottom'; there is a volume 'Bottom': names are taken to the letter; the file has "
-        "volumes 'Bottom', 'top' and " +
-            surfaces);
+    expect_refusal(refusal(replaced(text, "\"bottom\"", "\"Bottom\"")),
+                   "no physical volume 'bottom'; there is a volume 'Bottom': names are taken to the letter; "
+                   "the file has "
+                   "volumes 'Bottom', 'top' and " +
+                       surfaces);
     expect_refusal(refusal(replaced(text, "\"top_contact\"", "\"top contact \"")),
                    "there is a surface 'top contact ': names are taken to the letter");
     expect_refusal(refusal(replaced(text, "\"bottom\"", "\"gel\"")),
@@ -105,11 +107,13 @@ TEST(gmsh_file, ListsTheGroupsThatItHas)
   std::string saved_all = two;
   for (std::size_t at = 0; (at = saved_all.find(" 2 1 7 ", at)) != std::string::npos;)
     saved_all.replace(at, 7, " 2 0 7 ");
-  expect_refusal(refusal(saved_all), "no physical volume 'bottom'; the file names it, but no element is in it");
+  expect_refusal(refusal(saved_all),
+                 "no physical volume 'bottom'; the file names it, but no element is in it");
   expect_refusal(refusal(saved_all), "volumes 'bottom' (no element), 'top' and ");
   const auto names = two.find("$PhysicalNames"), end = two.find("$Nodes");
   std::string nameless = two.substr(0, names) + two.substr(end);
-  expect_refusal(refusal(nameless), "volumes number 1 (no name), number 2 (no name) and surfaces number 3 (no name), ");
+  expect_refusal(refusal(nameless),
+                 "volumes number 1 (no name), number 2 (no name) and surfaces number 3 (no name), ");
   for (const char *group : {" 2 1 7 ", " 2 2 7 ", " 2 3 7 ", " 2 4 7 ", " 2 5 7 ", " 2 6 7 "})
     nameless = replaced(nameless, group, " 2 0 7 ");
   expect_refusal(refusal(nameless), "the file has no physical groups");

@@ -1,14 +1,15 @@
 /// Hertz's contact, C5: for the measured force N
 ///
-///     a^3 = 3 N R/(4 E*),   p = 3 N/(2 pi a^2) sqrt(1 - r^2/a^2),   approach = a^2/R,   1/E* = 2 (1 - nu^2)/E.
+///     a^3 = 3 N R/(4 E*),   p = 3 N/(2 pi a^2) sqrt(1 - r^2/a^2),   approach = a^2/R,   1/E* = 2 (1 -
+///     nu^2)/E.
 ///
-/// The contact radius is taken from the second moment of the pressure, int p r^2 = (2/5) a^2 N, which varies smoothly
-/// with the state; the outermost node under pressure is known to a facet only. Errors depend on where in its facet the
-/// edge lies, so they are root mean squares over four loads.
+/// The contact radius is taken from the second moment of the pressure, int p r^2 = (2/5) a^2 N, which varies
+/// smoothly with the state; the outermost node under pressure is known to a facet only. Errors depend on
+/// where in its facet the edge lies, so they are root mean squares over four loads.
 ///
-/// The approach of finite blocks of width L is a^2/R + c N/L (1 + O(a^2/L^2)) (c: the displacement that a point force
-/// leaves out by having no half-space behind L), with the same c for similar blocks: two widths and two unknowns give
-/// the factor of a^2/R.
+/// The approach of finite blocks of width L is a^2/R + c N/L (1 + O(a^2/L^2)) (c: the displacement that a
+/// point force leaves out by having no half-space behind L), with the same c for similar blocks: two widths
+/// and two unknowns give the factor of a^2/R.
 #include "hertz.hpp"
 
 namespace tribogel::test
@@ -19,9 +20,10 @@ namespace
 
 constexpr double parts[4] = {0.72, 0.83, 0.91, 1}; // of the contact radius, the loads
 
-/// Relative errors: of the radius, of the pressure at the innermost node that has one (the axis at order 1) and in the
-/// L2 norm; `nodal` is the largest difference to the ellipse over the peak, within 0.9 a and without that node; `edge`
-/// the distance from a to the outermost node under pressure, over the facet's length.
+/// Relative errors: of the radius, of the pressure at the innermost node that has one (the axis at order 1)
+/// and in the L2 norm; `nodal` is the largest difference to the ellipse over the peak, within 0.9 a and
+/// without that node; `edge` the distance from a to the outermost node under pressure, over the facet's
+/// length.
 struct Errors {
   double radius = 0, centre = 0, pressure = 0, nodal = 0, edge = 0;
   PetscInt unknowns = 0, newton = 0;
@@ -75,7 +77,8 @@ Errors errors_of(const HertzScene &is)
     sum.newton += row.report.newton_iterations;
     if (row.time > 0) add_load(is, recorder, problem.contact->lower_face().weights(), sum);
   };
-  run(is.scene(schedule_from_rates(times, approach, std::vector<double>(4, 0))), is.blocks(), problem, recorder);
+  run(is.scene(schedule_from_rates(times, approach, std::vector<double>(4, 0))), is.blocks(), problem,
+      recorder);
   sum.unknowns = problem.mesh.unknowns;
   for (double *square : {&sum.radius, &sum.centre, &sum.pressure}) *square = std::sqrt(*square);
   return sum;
@@ -84,11 +87,11 @@ Errors errors_of(const HertzScene &is)
 Errors print_errors(const HertzScene &is)
 {
   const Errors e = errors_of(is);
-  std::printf(
-      "order %d a/h %3d unknowns %6d newton %2d: errors of radius %.2e, centre %.2e, pressure %.2e, nodal %.2e; "
-      "edge %.2f\n",
-      is.order, 4 << is.level, static_cast<int>(e.unknowns), static_cast<int>(e.newton), e.radius, e.centre, e.pressure,
-      e.nodal, e.edge);
+  std::printf("order %d a/h %3d unknowns %6d newton %2d: errors of radius %.2e, centre %.2e, pressure %.2e, "
+              "nodal %.2e; "
+              "edge %.2f\n",
+              is.order, 4 << is.level, static_cast<int>(e.unknowns), static_cast<int>(e.newton), e.radius,
+              e.centre, e.pressure, e.nodal, e.edge);
   std::fflush(stdout);
   return e;
 }
@@ -104,9 +107,10 @@ double approach_factor(int order, int level)
     rest[k] = e.force / is.width;
     travel[k] = e.travel;
   }
-  const double factor = (travel[0] * rest[1] - travel[1] * rest[0]) / (local[0] * rest[1] - local[1] * rest[0]);
-  std::printf("order %d a/h %3d: approach over a^2/R: %.5f and %.5f in finite blocks, %.5f without them\n", order,
-              4 << level, travel[0] / local[0], travel[1] / local[1], factor);
+  const double factor =
+      (travel[0] * rest[1] - travel[1] * rest[0]) / (local[0] * rest[1] - local[1] * rest[0]);
+  std::printf("order %d a/h %3d: approach over a^2/R: %.5f and %.5f in finite blocks, %.5f without them\n",
+              order, 4 << level, travel[0] / local[0], travel[1] / local[1], factor);
   std::fflush(stdout);
   return factor;
 }

@@ -1,17 +1,18 @@
-/// A Hertz contact that is turned. With N and E* the radius a and the pressure are Hertz's (hertz.hpp); equal bodies
-/// press without radial slip, friction or not.
+/// A Hertz contact that is turned. With N and E* the radius a and the pressure are Hertz's (hertz.hpp); equal
+/// bodies press without radial slip, friction or not.
 ///
-/// Sliding everywhere, C6: T = 2 pi int mu(omega r) p r^2 dr is 3 pi/16 mu N a for Coulomb, 2/5 b N omega a^2 for b v,
-/// 15 pi/160 b N omega^2 a^3 for b v^2.
+/// Sliding everywhere, C6: T = 2 pi int mu(omega r) p r^2 dr is 3 pi/16 mu N a for Coulomb, 2/5 b N omega a^2
+/// for b v, 15 pi/160 b N omega^2 a^3 for b v^2.
 ///
-/// Partial slip, C7 (Lubkin 1951). A bonded punch of radius s that turns by theta_s carries the shear traction
-/// 4 G theta_s r/(pi sqrt(s^2 - r^2)) and the torque 16/3 G s^3 theta_s. Superpose punches from the stick radius c to
-/// a, q(s) ds = 4 G theta_s/pi: all turn r < c alike, and for r > c the traction must be mu p,
+/// Partial slip, C7 (Lubkin 1951). A bonded punch of radius s that turns by theta_s carries the shear
+/// traction 4 G theta_s r/(pi sqrt(s^2 - r^2)) and the torque 16/3 G s^3 theta_s. Superpose punches from the
+/// stick radius c to a, q(s) ds = 4 G theta_s/pi: all turn r < c alike, and for r > c the traction must be mu
+/// p,
 ///
 ///     r int_r^a q(s)/sqrt(s^2 - r^2) ds = mu p_0 sqrt(1 - r^2/a^2),
 ///
-/// Abel's equation, which q = -(2 mu p_0/pi) dI/ds solves with I(s) = K(k') - E(k'), k'^2 = 1 - s^2/a^2. Hence with
-/// p_0 = 3 N/(2 pi a^2)
+/// Abel's equation, which q = -(2 mu p_0/pi) dI/ds solves with I(s) = K(k') - E(k'), k'^2 = 1 - s^2/a^2.
+/// Hence with p_0 = 3 N/(2 pi a^2)
 ///
 ///     theta = pi/(4 G) int_c^a q ds = 3 mu N/(4 pi G a^2) I(c)
 ///     T = 4 pi/3 int_c^a s^3 q ds = (4/pi) mu N a [ (c/a)^3 I(c) + 3 int_(c/a)^1 x^2 I(a x) dx ]
@@ -46,8 +47,8 @@ double lubkin_torque(double x)
   return 4 / pi * (x * x * x * lubkin(x) + (1 - x) / intervals * sum);
 }
 
-/// Presses in the first phase (1 s), turns by each of `twists` [rad] in one more (1 s each), with `steps` steps a
-/// phase. Torques at the twists' ends.
+/// Presses in the first phase (1 s), turns by each of `twists` [rad] in one more (1 s each), with `steps`
+/// steps a phase. Torques at the twists' ends.
 struct Turned {
   Hertz hertz;
   std::vector<double> torque; ///< [N mm]
@@ -75,7 +76,8 @@ Turned turn(const HertzScene &is, const std::vector<double> &twists, int steps)
   return turned;
 }
 
-/// Twist between the far ends at which the stick radius is x times the contact radius, with Hertz's N for is.a.
+/// Twist between the far ends at which the stick radius is x times the contact radius, with Hertz's N for
+/// is.a.
 double twist_at(const HertzScene &is, double mu, double x)
 {
   const double N = 4.0 / 3 * is.elastic().plane() / 2 * std::pow(is.a, 3) / is.sphere();
@@ -96,14 +98,15 @@ std::vector<double> coulomb_errors(int order, int level)
   std::vector<double> error;
   for (std::size_t k = 0; k < 4; ++k) {
     // the stick radius that belongs to this twist under the measured force
-    const double I = twists[k] / 2 * 4 * pi * is.elastic().G * hertz.radius * hertz.radius / (3 * mu * hertz.N);
+    const double I =
+        twists[k] / 2 * 4 * pi * is.elastic().G * hertz.radius * hertz.radius / (3 * mu * hertz.N);
     double low = 1e-9, high = 1;
     for (int i = 0; i < 60; ++i) (lubkin((low + high) / 2) > I ? low : high) = (low + high) / 2;
     const double reference = k < 3 ? lubkin_torque(low) : 3 * pi / 16;
     error.push_back(turned.torque[k] / (mu * hertz.N * hertz.radius) / reference - 1);
   }
-  std::printf("order %d a/h %3d: errors of T at c/a = 0.8, 0.5, 0.2, 0: %.2e %.2e %.2e %.2e\n", order, 4 << level,
-              error[0], error[1], error[2], error[3]);
+  std::printf("order %d a/h %3d: errors of T at c/a = 0.8, 0.5, 0.2, 0: %.2e %.2e %.2e %.2e\n", order,
+              4 << level, error[0], error[1], error[2], error[3]);
   std::fflush(stdout);
   return error;
 }
@@ -117,7 +120,8 @@ double viscous_error(int order, int level, int m)
   const Turned turned = turn(is, {omega}, 4);
   const Hertz &hertz = turned.hertz;
   const double factor = m == 1 ? 2.0 / 5 : 15 * pi / 160;
-  const double error = turned.torque[0] / (factor * b * hertz.N * std::pow(omega * hertz.radius, m) * hertz.radius) - 1;
+  const double error =
+      turned.torque[0] / (factor * b * hertz.N * std::pow(omega * hertz.radius, m) * hertz.radius) - 1;
   std::printf("order %d a/h %3d mu = b v^%d: error of T %.2e\n", order, 4 << level, m, error);
   std::fflush(stdout);
   return error;

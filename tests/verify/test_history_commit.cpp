@@ -1,6 +1,6 @@
-/// A rejected step leaves nothing behind: neither in the unknowns nor in the internal variables, energies or the start
-/// of the next step. A run whose steps fail (Newton's iterations run out) or are rejected (error estimate) is compared
-/// with one that takes the same accepted steps and rejects none.
+/// A rejected step leaves nothing behind: neither in the unknowns nor in the internal variables, energies or
+/// the start of the next step. A run whose steps fail (Newton's iterations run out) or are rejected (error
+/// estimate) is compared with one that takes the same accepted steps and rejects none.
 #include "probe.hpp"
 
 namespace tribogel::test
@@ -70,7 +70,8 @@ TEST(history_commit, AFailedSolveLeavesNothingBehind)
     const double step = with.rows[1].step; // 8 s quartered once or more
     EXPECT_LT(step, 8);
     {
-      const SolverOptions options({{"-ts_adapt_type", "none"}, {"-ts_dt", text_of(step)}, {"-snes_max_it", most}});
+      const SolverOptions options(
+          {{"-ts_adapt_type", "none"}, {"-ts_dt", text_of(step)}, {"-snes_max_it", most}});
       run(scene_of(order, rule), smooth, without);
     }
     EXPECT_EQ(smooth.counts.failed_solves, 0);
@@ -101,7 +102,8 @@ void expect_no_trace_of_rejection(TimeRule rule, const char *tolerance)
   ASSERT_TRUE(completed) << why;
   EXPECT_EQ(replayed.counts.rejected_steps, 0);
   ASSERT_EQ(with.rows.size(), without.rows.size());
-  for (std::size_t k = 0; k < with.rows.size(); ++k) EXPECT_NEAR(with.rows[k].time, without.rows[k].time, 1e-12);
+  for (std::size_t k = 0; k < with.rows.size(); ++k)
+    EXPECT_NEAR(with.rows[k].time, without.rows[k].time, 1e-12);
   expect_same_end(adaptive, replayed, 1e-11);
 }
 

@@ -2,8 +2,9 @@
 ///
 ///   F/W = (tan alpha + mu)/(1 - mu tan alpha).
 ///
-/// The plates only turn and travel, so the block stands far from the axis, at x = distance, where turning is pushing
-/// along y: F = T/distance, W = N. Compression bends the interface, by angles that fall with it: so does the error.
+/// The plates only turn and travel, so the block stands far from the axis, at x = distance, where turning is
+/// pushing along y: F = T/distance, W = N. Compression bends the interface, by angles that fall with it: so
+/// does the error.
 #include "solids.hpp"
 
 namespace tribogel::test
@@ -60,8 +61,8 @@ TEST(incline, TakesTheForceOfFullSlip)
     for (const double compression : {1e-2, 1e-3}) {
       const Measurement m = pushed(order, compression);
       const double ratio = m.torque / distance / m.normal_force, error = ratio / exact - 1;
-      std::printf("order %d, compression %.0e mm: W %.3e N, F/W %.6f of %.6f\n", order, compression, m.normal_force,
-                  ratio, exact);
+      std::printf("order %d, compression %.0e mm: W %.3e N, F/W %.6f of %.6f\n", order, compression,
+                  m.normal_force, ratio, exact);
       EXPECT_NEAR(m.mu_pressure_weighted, mu, 1e-9); // no node sticks
       if (before != 0) {
         EXPECT_LT(std::abs(error), 0.12 * std::abs(before));

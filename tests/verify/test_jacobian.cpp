@@ -1,10 +1,10 @@
-/// The assembled matrix dF/dU + shift dF/dUdot (bulk with history, contact open, sticking, slipping and over the
-/// master's edge, friction, plates in motion) against five-point central differences of the assembled residual
-/// F(t, U, shift (U - U_n)), along random directions, a column group at a time (three displacement, three traction
-/// components). States are random perturbations of solved ones with random tractions: a solved state hides terms that
-/// vanish there. Each row i is held against sum_j |J_ij w_j|, so that rows of small weight (the axis) count like
-/// others. Tolerance: 1e-8 relative, plus the round-off of the difference itself, (64 eps x sum of absolute forces + 16
-/// x round-off of the unloaded body) / h.
+/// The assembled matrix dF/dU + shift dF/dUdot (bulk with history, contact open, sticking, slipping and over
+/// the master's edge, friction, plates in motion) against five-point central differences of the assembled
+/// residual F(t, U, shift (U - U_n)), along random directions, a column group at a time (three displacement,
+/// three traction components). States are random perturbations of solved ones with random tractions: a solved
+/// state hides terms that vanish there. Each row i is held against sum_j |J_ij w_j|, so that rows of small
+/// weight (the axis) count like others. Tolerance: 1e-8 relative, plus the round-off of the difference
+/// itself, (64 eps x sum of absolute forces + 16 x round-off of the unloaded body) / h.
 #include "probe.hpp"
 #include "wall_scenes.hpp"
 
@@ -34,12 +34,13 @@ Scene scene_of(const Case &c)
   scene.bottom.material = hyperelastic_gel(); // history on one side of the contact only
   scene.top.material.branches[0].deviatoric_viscosity = 2.7;
   scene.initial_gap = c.gap;
-  scene.friction = {c.coefficients, c.exponents, c.pressure_exponent, 0.3}; // pressures on both sides of the floor
+  scene.friction = {c.coefficients, c.exponents, c.pressure_exponent,
+                    0.3}; // pressures on both sides of the floor
   scene.schedule = schedule_from_rates({2.3, 4.1}, {0.31, 0.37}, {0.013, 0.17});
   scene.bottom_plate_rate = 0.021;
   scene.mesh.grading = 2;
-  // Where nodes of the two surfaces meet, the mortar integrals have a kink in their slope and differences a larger
-  // error.
+  // Where nodes of the two surfaces meet, the mortar integrals have a kink in their slope and differences a
+  // larger error.
   scene.mesh.bottom_elements_radial = scene.mesh.elements_radial + 1;
   return scene;
 }
@@ -49,7 +50,8 @@ Values perturbed(const Probe &probe, double traction, std::mt19937 &random)
 {
   std::uniform_real_distribution<double> in(-1, 1);
   Values U = probe.committed();
-  for (std::size_t k = 0; k < U.size(); ++k) U[k] += (probe.problem.group[k] < 3 ? 0.011 : traction) * in(random);
+  for (std::size_t k = 0; k < U.size(); ++k)
+    U[k] += (probe.problem.group[k] < 3 ? 0.011 : traction) * in(random);
   return U;
 }
 
@@ -176,15 +178,17 @@ TEST_P(jacobian, OfWallsThatTouchTheirPlateAndRollOntoTheOtherGel)
   Values U = probe.committed(); // near the state: the wall must keep lying on the other gel
   for (std::size_t k = 0; k < U.size(); ++k) U[k] += (problem.group[k] < 3 ? 1e-4 : 0.1) * in(random);
   check_matrix(probe, U, random);
-  const auto rolled = std::count_if(recorder.last_profile.begin(), recorder.last_profile.end(), [](const auto &row) {
-    return std::string(row.surface) == "top" && row.reference_z > 0 && row.pressure > 0;
-  });
+  const auto rolled =
+      std::count_if(recorder.last_profile.begin(), recorder.last_profile.end(), [](const auto &row) {
+        return std::string(row.surface) == "top" && row.reference_z > 0 && row.pressure > 0;
+      });
   EXPECT_GE(rolled, 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(order, jacobian, ::testing::Values(1, 2));
 
-/// The bulk has an incremental potential: its part of the matrix is symmetric, with mean dilatation and history.
+/// The bulk has an incremental potential: its part of the matrix is symmetric, with mean dilatation and
+/// history.
 TEST(jacobian_bulk, IsSymmetric)
 {
   for (int order : {1, 2}) {

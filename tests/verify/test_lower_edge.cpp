@@ -15,7 +15,8 @@ namespace
 
 using Point = std::array<double, 2>;
 
-/// At each of a cell's corners: twice the area of the triangle with its neighbours, positive where the cell is sound.
+/// At each of a cell's corners: twice the area of the triangle with its neighbours, positive where the cell
+/// is sound.
 std::array<double, 4> corner_areas(const SerialMesh::Cell &cell, const std::vector<Point> &x)
 {
   constexpr int around[4] = {0, 1, 3, 2}; // counter-clockwise
@@ -82,7 +83,8 @@ TEST(lower_edge, SplitMeshIsWhole)
     for (const auto &cell : mesh.cell) {
       const auto corners = corner_areas(cell, x);
       area += (corners[0] + corners[2]) / 2;
-      for (const auto &[a, b] : {std::pair{0, 1}, {1, 3}, {3, 2}, {2, 0}}) ++cells[{cell.vertex[a], cell.vertex[b]}];
+      for (const auto &[a, b] : {std::pair{0, 1}, {1, 3}, {3, 2}, {2, 0}})
+        ++cells[{cell.vertex[a], cell.vertex[b]}];
     }
     EXPECT_NEAR(area, 3 * 2, 1e-14);
     double length[side_count] = {};
@@ -101,15 +103,16 @@ TEST(lower_edge, SplitMeshIsWhole)
   }
 }
 
-/// Rolled over the edge: angles about it are doubled, from a quarter to half a turn, distances divided by sqrt 2, so
-/// that areas stay. The grid has a cell that is flat at the edge, the split one none.
+/// Rolled over the edge: angles about it are doubled, from a quarter to half a turn, distances divided by
+/// sqrt 2, so that areas stay. The grid has a cell that is flat at the edge, the split one none.
 TEST(lower_edge, SplitMeshRollsOver)
 {
   for (const int split : {0, 1, 2}) {
     const SerialMesh mesh = serial_mesh({block_of(split)});
     std::vector<Point> x = places(mesh);
     for (Point &p : x) {
-      const double r = std::hypot(3 - p[0], p[1]) / std::numbers::sqrt2, angle = 2 * std::atan2(p[1], 3 - p[0]);
+      const double r = std::hypot(3 - p[0], p[1]) / std::numbers::sqrt2,
+                   angle = 2 * std::atan2(p[1], 3 - p[0]);
       p = {-r * std::cos(angle), r * std::sin(angle)};
     }
     EXPECT_EQ(smallest_corner(mesh, x) > 1e-12, split > 0) << split;
@@ -148,8 +151,8 @@ TEST(lower_edge, RefinedSplitMeshesAreNested)
   }
 }
 
-/// Elastic gels, pressed and turned by 0.12 rad with mu = 0.3: the edge rolls over. T and N of other grids, whose edges
-/// are too long to show it (8 elements of grading 30, not split): 373.3 N mm, 301.9 N.
+/// Elastic gels, pressed and turned by 0.12 rad with mu = 0.3: the edge rolls over. T and N of other grids,
+/// whose edges are too long to show it (8 elements of grading 30, not split): 373.3 N mm, 301.9 N.
 TEST(lower_edge, RollsOverAndTurns)
 {
   Scene scene = held(0.3, 8, 60);

@@ -1,5 +1,5 @@
-/// Manufactured solutions (manufactured.hpp), B6. Rates of the norms over the reference volume: k + 1 in L2, k in H1 at
-/// order k.
+/// Manufactured solutions (manufactured.hpp), B6. Rates of the norms over the reference volume: k + 1 in L2,
+/// k in H1 at order k.
 #include "manufactured.hpp"
 #include "solids.hpp"
 
@@ -16,15 +16,16 @@ constexpr double a = 4.5, height = 3;
 using Plane = std::array<double, 2>;
 using Field = AxisymmetricTorsion::Field<double>;
 
-/// Unknowns (u_R, L phi, u_Z) and their gradients. On the axis u_R is odd in R, the others even. u_R and u_Z come from
-/// a stream function, so that the volume changes in second order only: with K/G = 20 more would mean pressures far
-/// above G, under which the dead load has no unique solution.
+/// Unknowns (u_R, L phi, u_Z) and their gradients. On the axis u_R is odd in R, the others even. u_R and u_Z
+/// come from a stream function, so that the volume changes in second order only: with K/G = 20 more would
+/// mean pressures far above G, under which the dead load has no unique solution.
 Field exact_field(const Plane &X)
 {
   using D = Dual<2>;
   const D R = D::seed(X[0], 0), s = D::seed(X[1], 1) / height, q = R * R / (a * a);
   const D g = 0.4 * sin(1.7 * s + 0.5), slope = 0.4 * 1.7 / height * cos(1.7 * s + 0.5);
-  const D u[3] = {-0.5 * R * (1 - 0.4 * q) * slope, 0.9 * (0.7 + 0.6 * q) * sin(1.3 * s - 0.4), (1 - 0.8 * q) * g};
+  const D u[3] = {-0.5 * R * (1 - 0.4 * q) * slope, 0.9 * (0.7 + 0.6 * q) * sin(1.3 * s - 0.4),
+                  (1 - 0.8 * q) * g};
   Field field;
   for (int i = 0; i < 3; ++i) {
     field.u[i] = u[i].v;
@@ -74,7 +75,8 @@ Solid::Field<double> solid_field(const std::array<double, 3> &X)
 {
   using D = Dual<3>;
   const D x = D::seed(X[0], 0), y = D::seed(X[1], 1), z = D::seed(X[2], 2);
-  const D u[3] = {0.11 * sin(0.9 * y - 0.7 * z + 0.3), 0.13 * sin(0.8 * z + 0.6 * x), 0.12 * cos(0.7 * x + 0.8 * y)};
+  const D u[3] = {0.11 * sin(0.9 * y - 0.7 * z + 0.3), 0.13 * sin(0.8 * z + 0.6 * x),
+                  0.12 * cos(0.7 * x + 0.8 * y)};
   Solid::Field<double> field;
   for (int i = 0; i < 3; ++i) {
     field.u[i] = u[i].v;
@@ -87,7 +89,8 @@ Solid::Field<double> solid_field(const std::array<double, 3> &X)
 void bend(Mesh &mesh)
 {
   for (Node &node : mesh.nodes) {
-    const double pi = std::numbers::pi, bump = 0.12 * std::sin(pi * node.X[0] / 2) * std::sin(pi * node.X[1] / 2) *
+    const double pi = std::numbers::pi, bump = 0.12 * std::sin(pi * node.X[0] / 2) *
+                                               std::sin(pi * node.X[1] / 2) *
                                                std::sin(pi * node.X[2] / height);
     node.X[0] += bump * std::cos(1.3 * node.X[1]);
     node.X[1] -= bump;

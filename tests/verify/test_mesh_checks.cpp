@@ -1,5 +1,5 @@
-/// Faults of Gmsh meshes that a solver would take in silence: parts that are not joined or not held, faces that their
-/// groups lack. Counts, areas and places are by hand.
+/// Faults of Gmsh meshes that a solver would take in silence: parts that are not joined or not held, faces
+/// that their groups lack. Counts, areas and places are by hand.
 #include "checked_meshes.hpp"
 
 #include <algorithm>
@@ -46,7 +46,9 @@ std::string with_group(const SerialMesh &all, const SerialMesh &fewer, const std
   text.replace(text.find(names), names.size(), "$PhysicalNames\n7\n2 7 \"" + name + "\"\n");
   std::istringstream lines(text), left(GmshWriter(fewer, true, 8).format_2());
   std::set<std::string> kept;
-  const auto nodes = [](const std::string &line) { return line.substr(line.find(" 3 2 ") + 5); }; // group and nodes
+  const auto nodes = [](const std::string &line) {
+    return line.substr(line.find(" 3 2 ") + 5);
+  }; // group and nodes
   for (std::string line; std::getline(left, line);)
     if (line.find(" 3 2 ") != std::string::npos) kept.insert(nodes(line));
   std::string result;
@@ -66,17 +68,20 @@ TEST(mesh_checks, SayWhichPartsAreNotJoined)
   const SerialMesh layers = apart({slab(-3, 3, -2, -1), slab(-3, 3, -1, 0), upper});
   expect_taken(judged(welded(layers)));
   // 6 x 6 faces of either layer
-  expect_refused(judged(layers), {"faces of bottom lie on other faces of it with nodes of their own (72, e.g. that of "
-                                  "element 1 at (-2.5, -2.5, -1) on element 37)",
-                                  "gmsh.model.mesh.removeDuplicateNodes"});
+  expect_refused(judged(layers),
+                 {"faces of bottom lie on other faces of it with nodes of their own (72, e.g. that of "
+                  "element 1 at (-2.5, -2.5, -1) on element 37)",
+                  "gmsh.model.mesh.removeDuplicateNodes"});
   const SerialMesh halves = apart({slab(-3, 0, -2, 0), slab(0, 3, -2, 0), upper});
   expect_taken(judged(welded(halves)));
   expect_refused(judged(halves), {"of bottom lie on other faces of it", "(24, e.g."}); // 6 x 2 of either half
   SerialMesh digits = halves; // as a file of seven digits has it
   for (std::size_t v = 0; v < digits.vertex.size(); ++v) digits.vertex[v][0] += v % 3 * 1e-6;
   expect_refused(judged(digits), {"of bottom lie on other faces of it", "(24, e.g."});
-  expect_refused(judged(apart({slab(-3, 0, -2, 0), slab(0.0005, 3, -2, 0), upper})), {"lie on other faces of it"});
-  expect_warned(judged(apart({slab(-3, 0, -2, 0), slab(0.01, 3, -2, 0), upper})), {"(24, e.g.", "a slit whose sides"});
+  expect_refused(judged(apart({slab(-3, 0, -2, 0), slab(0.0005, 3, -2, 0), upper})),
+                 {"lie on other faces of it"});
+  expect_warned(judged(apart({slab(-3, 0, -2, 0), slab(0.01, 3, -2, 0), upper})),
+                {"(24, e.g.", "a slit whose sides"});
   expect_taken(judged(apart({slab(-3, 0, -2, 0), slab(0.5, 3, -2, 0), upper}))); // two gels on one plate
 }
 
@@ -132,7 +137,8 @@ TEST(mesh_checks, WarnOfPartsThatBearNothing)
   const Sides both{none, none, none, none, Side::bottom_plate, Side::top_plate};
   const std::pair<int, Box> gel{bottom_body, {{even(-1, 1, 2), even(-1, 1, 2), even(-2, 0, 2)}, both}};
   const std::pair<int, Box> block{
-      bottom_body, {{even(2, 3, 1), even(0, 1, 1), even(-2, -1, 1)}, {none, none, none, none, Side::bottom_plate}}};
+      bottom_body,
+      {{even(2, 3, 1), even(0, 1, 1), even(-2, -1, 1)}, {none, none, none, none, Side::bottom_plate}}};
   expect_taken(judged(GmshWriter(apart({gel}), false, 8).format_2(), 1, 0.5, false));
   const SerialMesh fewer = without(apart({gel}), Side::top_plate, [](const X &x) { return x[0] > 0; });
   expect_refused(judged(GmshWriter(fewer, false, 8).format_2(), 1, 0.5, false),
@@ -158,8 +164,9 @@ TEST(mesh_checks, WarnOfHexahedraThatAreLeftOut)
     if (of_slab) line.replace(at, 6, " 3 2 9");
     fewer += line + "\n";
   }
-  expect_warned(judged(fewer), {"hexahedra that are not in the physical volumes top and bottom are left out (2, e.g. "
-                                "element 73)"});
+  expect_warned(judged(fewer),
+                {"hexahedra that are not in the physical volumes top and bottom are left out (2, e.g. "
+                 "element 73)"});
 }
 
 TEST(mesh_checks, SayWhatPlatesLack)
@@ -167,10 +174,12 @@ TEST(mesh_checks, SayWhatPlatesLack)
   const SerialMesh all = apart({lower, upper});
   const auto corner = [](const X &x) { return x[0] > 1 && x[1] > 0; };
   const SerialMesh fewer = without(all, Side::top_plate, corner); // 1 x 2 mm of 4 x 4
-  expect_refused(judged(fewer), {"top_plate lacks faces of top: 2 mm^2, 12.5 %", "(2, e.g. that of element", "plane"});
+  expect_refused(judged(fewer),
+                 {"top_plate lacks faces of top: 2 mm^2, 12.5 %", "(2, e.g. that of element", "plane"});
   expect_warned(judged(with_group(all, fewer, "free")),
                 {"top_plate lacks faces of top: 2 mm^2, 12.5 %", "physical surface 'free'"});
-  expect_refused(judged(without(all, Side::bottom_plate, corner)), {"bottom_plate lacks faces of bottom: 6 mm^2"});
+  expect_refused(judged(without(all, Side::bottom_plate, corner)),
+                 {"bottom_plate lacks faces of bottom: 6 mm^2"});
 }
 
 TEST(mesh_checks, SayWhatContactFacesLack)
@@ -182,15 +191,18 @@ TEST(mesh_checks, SayWhatContactFacesLack)
        {std::pair<bool (*)(const X &), const char *>{middle, "4 mm^2, 25 %"}, {rim, "4 mm^2, 25 %"}}) {
     const SerialMesh fewer = without(all, Side::slave, where);
     expect_refused(judged(fewer), {std::string("top_contact lacks faces of top: ") + area});
-    expect_warned(judged(with_group(all, fewer, "free")), {std::string("top_contact lacks faces of top: ") + area});
+    expect_warned(judged(with_group(all, fewer, "free")),
+                  {std::string("top_contact lacks faces of top: ") + area});
   }
-  expect_refused(judged(without(all, Side::master, middle)), {"bottom_contact lacks faces of bottom: 4 mm^2"});
+  expect_refused(judged(without(all, Side::master, middle)),
+                 {"bottom_contact lacks faces of bottom: 4 mm^2"});
   // What the top does not reach, it may come to when it spreads
   const auto outside = [](const X &x) { return std::hypot(x[0], x[1]) > 2.9; };
   expect_warned(judged(without(all, Side::master, outside)), {"bottom_contact lacks faces of bottom: "});
 }
 
-/// A lens whose contact faces end at some radius: nothing is said of what does not come down to the other gel.
+/// A lens whose contact faces end at some radius: nothing is said of what does not come down to the other
+/// gel.
 TEST(mesh_checks, TakeALensOfWhichSomeIsContact)
 {
   SerialMesh lens = apart({lower, upper});
@@ -203,23 +215,27 @@ TEST(mesh_checks, TakeALensOfWhichSomeIsContact)
   const auto outside = [](const X &x) { return std::max(std::abs(x[0]), std::abs(x[1])) > 1; };
   const SerialMesh part = without(lens, Side::slave, outside);
   expect_taken(judged(part, 1, 0.05));
-  expect_warned(judged(part, 1, 0.5), {"top_contact lacks faces of top", "(12, e.g.", "may come as near as that"});
+  expect_warned(judged(part, 1, 0.5),
+                {"top_contact lacks faces of top", "(12, e.g.", "may come as near as that"});
   // A hole in the middle is surrounded
-  expect_refused(judged(without(lens, Side::slave, [](const X &x) { return x[0] * x[0] + x[1] * x[1] < 1; }), 1, 0.05),
-                 {"top_contact lacks faces of top", "(4, e.g."});
+  expect_refused(
+      judged(without(lens, Side::slave, [](const X &x) { return x[0] * x[0] + x[1] * x[1] < 1; }), 1, 0.05),
+      {"top_contact lacks faces of top", "(4, e.g."});
 }
 
 /// A tub with the top gel in it: a wall of each touches the other's, and nobody says so.
 TEST(mesh_checks, RefuseWallsThatTouch)
 {
-  std::pair<int, Box> side{bottom_body, {{even(2, 3, 1), even(-3, 3, 6), even(0, 1, 1)}, {Side::master}}}, gel = upper;
+  std::pair<int, Box> side{bottom_body, {{even(2, 3, 1), even(-3, 3, 6), even(0, 1, 1)}, {Side::master}}},
+      gel = upper;
   gel.second.sides[1] = Side::slave;
   SerialMesh tub = welded(apart({lower, side, gel}));
   tub = without(tub, Side::master, [](const X &x) { return x[0] > 2; }); // below the side
   const auto wall = [](const X &x) { return x[0] == 2; };
   const SerialMesh silent = without(without(tub, Side::master, wall), Side::slave, wall);
   EXPECT_EQ(judged(tub).refusal, "");
-  expect_refused(judged(silent), {"faces of bottom in no contact surface lie on or in top (4, e.g. that of element"});
+  expect_refused(judged(silent),
+                 {"faces of bottom in no contact surface lie on or in top (4, e.g. that of element"});
   expect_warned(judged(with_group(tub, silent, "free")), {"in no contact surface lie on or in"});
 }
 

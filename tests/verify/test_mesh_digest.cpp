@@ -1,4 +1,5 @@
-/// A mesh's digest is the same for the same mesh, however its file is written, and another for all that a run sees.
+/// A mesh's digest is the same for the same mesh, however its file is written, and another for all that a run
+/// sees.
 #include "gmsh_texts.hpp"
 
 #include "mesh/digest.hpp"
@@ -42,8 +43,11 @@ TEST(mesh_digest, SeesNodesCellsAndSides)
     changed([](SerialMesh &m) { std::swap(m.cell[0], m.cell[1]); }, places);
     changed([](SerialMesh &m) { std::swap(m.cell[0].vertex[0], m.cell[0].vertex[1]); }, places);
     changed([](SerialMesh &m) { m.cell[0].body = top_body; }, places);
-    changed([](SerialMesh &m) { m.boundary[2].side = m.boundary[2].side == Side::wall ? Side::slave : Side::wall; },
-            places);
+    changed(
+        [](SerialMesh &m) {
+          m.boundary[2].side = m.boundary[2].side == Side::wall ? Side::slave : Side::wall;
+        },
+        places);
     changed([](SerialMesh &m) { m.boundary.pop_back(); }, places);
     changed([](SerialMesh &m) { m.middle.clear(); }, places);
   }

@@ -1,6 +1,6 @@
-/// The coefficients read from a torque take the contact face of a mesh file as it is. A square of edge 1 with the axis
-/// at its corner has <r> = (sqrt 2 + asinh 1)/3 and <r^2> = 2/3; the circle of its area has <r> = 0.376 and
-/// <r^2> = 0.159.
+/// The coefficients read from a torque take the contact face of a mesh file as it is. A square of edge 1 with
+/// the axis at its corner has <r> = (sqrt 2 + asinh 1)/3 and <r^2> = 2/3; the circle of its area has <r> =
+/// 0.376 and <r^2> = 0.159.
 #include "gmsh_texts.hpp"
 #include "solver_options.hpp"
 
@@ -47,8 +47,8 @@ TEST(mesh_face, WeighsTheTorqueByItsOwnMoments)
   }
 }
 
-/// A square on an equal one hangs over its edge as soon as it turns about the corner: by 0.02 rad with 1 % of its area,
-/// by 0.3 rad with more than the 10 % that end a run.
+/// A square on an equal one hangs over its edge as soon as it turns about the corner: by 0.02 rad with 1 % of
+/// its area, by 0.3 rad with more than the 10 % that end a run.
 TEST(mesh_face, IsKnownToHangOverTheEdgeBeforeItTurns)
 {
   for (const double angle : {0.02, 0.3, -0.3}) {
@@ -61,7 +61,8 @@ TEST(mesh_face, IsKnownToHangOverTheEdgeBeforeItTurns)
     ASSERT_EQ(problem.JudgeStart(objection, doubts), 0);
     EXPECT_EQ(objection, "");
     ASSERT_EQ(doubts.size(), angle == 0.02 ? 0 : 1);
-    for (const std::string &doubt : doubts) EXPECT_EQ(doubt.find("when the top plate has turned by "), 0) << doubt;
+    for (const std::string &doubt : doubts)
+      EXPECT_EQ(doubt.find("when the top plate has turned by "), 0) << doubt;
   }
   Scene scene = turned_cubes(1);
   scene.misalignment.offset = {0.05, 0};

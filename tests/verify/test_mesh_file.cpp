@@ -1,5 +1,5 @@
-/// Meshes from Gmsh files: the O-grids written and read again give the forces of the built-in mesh, in both formats,
-/// with straight and curved cells; what a file must not be is refused in words.
+/// Meshes from Gmsh files: the O-grids written and read again give the forces of the built-in mesh, in both
+/// formats, with straight and curved cells; what a file must not be is refused in words.
 #include "gmsh_texts.hpp"
 #include "solver_options.hpp"
 
@@ -37,7 +37,8 @@ Measurement measured(const Scene &scene, const SerialMesh &serial)
 /// Order 2: the 27 nodes lie on the curved bodies, and so do those of the built-in mesh.
 TEST(mesh_file, GivesTheForcesOfTheBuiltInMesh)
 {
-  const SolverOptions options(fixed_steps(0.5, 1e-10)); // 1e-12 is below the round-off of the gap at the first touch
+  const SolverOptions options(
+      fixed_steps(0.5, 1e-10)); // 1e-12 is below the round-off of the gap at the first touch
   for (const auto &[order, elements] : {std::array{1, 3}, std::array{2, 2}}) {
     const Scene scene = turned_gels(order, elements);
     const SerialMesh serial = revolved_mesh(meridian_blocks(scene));
@@ -82,12 +83,13 @@ TEST(mesh_file, IsTheSameInBothFormats)
       EXPECT_EQ(one.cell[k].vertex, other.cell[k].vertex);
       EXPECT_EQ(one.cell[k].body, serial.cell[k].body);
     }
-    for (std::size_t k = 0; k < one.boundary.size(); ++k) EXPECT_EQ(one.boundary[k].side, other.boundary[k].side);
+    for (std::size_t k = 0; k < one.boundary.size(); ++k)
+      EXPECT_EQ(one.boundary[k].side, other.boundary[k].side);
   }
 }
 
-/// Of 20 nodes the serendipity functions make those that are missing: on a cell that is affine, the means; an edge that
-/// bulges by b moves the middles of its two faces by b/2 and that of the cell by b/4.
+/// Of 20 nodes the serendipity functions make those that are missing: on a cell that is affine, the means; an
+/// edge that bulges by b moves the middles of its two faces by b/2 and that of the cell by b/4.
 TEST(mesh_file, FillsTheMiddlesOfTwentyNodes)
 {
   SerialMesh mesh = cubes();
@@ -138,9 +140,11 @@ TEST(mesh_file, SaysWhatIsWrong)
   EXPECT_EQ(refusal(four), "taken");
   for (const char *name : {"top_plate", "bottom_plate", "top_contact", "bottom_contact"})
     for (const std::string &text : {good, four})
-      expect(refusal(replaced(text, std::string("\"") + name, "\"other")), std::string("no physical surface '") + name);
+      expect(refusal(replaced(text, std::string("\"") + name, "\"other")),
+             std::string("no physical surface '") + name);
   for (const char *name : {"top", "bottom"})
-    expect(refusal(replaced(good, std::string("\"") + name + "\"", "\"other\"")), std::string("volume '") + name);
+    expect(refusal(replaced(good, std::string("\"") + name + "\"", "\"other\"")),
+           std::string("volume '") + name);
   expect(refusal(good, 1, false), "of top_plate is not on the boundary of bottom");
   expect(refusal(""), "no $MeshFormat");
   expect(refusal("solid cube\n"), "line 1");
@@ -157,7 +161,8 @@ TEST(mesh_file, SaysWhatIsWrong)
   expect(refusal(replaced(good, "\n3 3 2 4 7 1 ", "\n3 3 2 4 7 9 ")),
          "of bottom_plate is not on the boundary of bottom");
   SerialMesh spoiled = mesh;
-  for (int &v : spoiled.cell[1].vertex) v = v > 11 ? v : v - 4; // the upper cube stands on the lower one's nodes
+  for (int &v : spoiled.cell[1].vertex)
+    v = v > 11 ? v : v - 4; // the upper cube stands on the lower one's nodes
   expect(refusal(GmshWriter(spoiled, true, 8).format_2()), "shares node 5 with the other body");
   spoiled = mesh;
   spoiled.boundary.push_back({mesh.boundary[0].vertex, Side::master});

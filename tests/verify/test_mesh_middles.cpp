@@ -12,10 +12,12 @@ namespace
 {
 
 /// Of the hexahedra in a file of second order, nodes and their positions as text in format 2.2.
-std::string with_middles(const SerialMesh &mesh, int nodes, const std::function<void(int, std::vector<X> &)> &change)
+std::string with_middles(const SerialMesh &mesh, int nodes,
+                         const std::function<void(int, std::vector<X> &)> &change)
 {
   std::ostringstream out;
-  out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n6\n3 1 \"bottom\"\n3 2 \"top\"\n2 3 \"top_plate\"\n"
+  out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n6\n3 1 \"bottom\"\n3 2 \"top\"\n2 3 "
+         "\"top_plate\"\n"
          "2 4 \"bottom_plate\"\n2 5 \"top_contact\"\n2 6 \"bottom_contact\"\n$EndPhysicalNames\n";
   std::ostringstream elements;
   std::vector<X> place(mesh.vertex);
@@ -110,17 +112,19 @@ TEST(mesh_middles, RefuseFacesWithOtherMiddles)
     for (int back = 0; back < k; ++back) to = text.rfind(' ', to - 1);
     const std::size_t from = text.rfind(' ', to - 1);
     text.replace(from, to - from, " 1");
-    expect_refused(judged(text, 2), {k == 0 ? "has the middle of the face at" : "has the middle of the edge from"});
+    expect_refused(judged(text, 2),
+                   {k == 0 ? "has the middle of the face at" : "has the middle of the edge from"});
     expect_taken(judged(text, 1));
   }
 }
 
-/// Three cells beside six on a curved face, where they share every other node: of order 1 the six are a little apart
-/// from the three, but their nodes between are on the middles of the three's edges.
+/// Three cells beside six on a curved face, where they share every other node: of order 1 the six are a
+/// little apart from the three, but their nodes between are on the middles of the three's edges.
 TEST(mesh_middles, RefuseNodesThatHangOnMiddles)
 {
   const auto slab = [](double left, double right, int cells) {
-    return std::pair(bottom_body, Box{{even(left, right, 3), even(-3, 3, cells), even(-2, 0, 2)}, lower_sides});
+    return std::pair(bottom_body,
+                     Box{{even(left, right, 3), even(-3, 3, cells), even(-2, 0, 2)}, lower_sides});
   };
   const auto curved = [](const X &x) { return X{x[0] + 0.03 * (9 - x[1] * x[1]), x[1], x[2]}; };
   const SerialMesh mesh = welded(apart({slab(-3, 0, 3), slab(0, 3, 6), upper}));
@@ -140,32 +144,37 @@ TEST(mesh_middles, RefuseMiddlesThatAreNotThere)
       if (tag == 1) node[k] = to;
     });
   };
-  expect_refused(judged(change(8, {0, 0, 0}), 2), {"element 1 has the middle of an edge at (0, 0, 0), 4.3875 mm from "
-                                                   "(-2.5, -3, -2), where its other nodes put it"});
+  expect_refused(judged(change(8, {0, 0, 0}), 2),
+                 {"element 1 has the middle of an edge at (0, 0, 0), 4.3875 mm from "
+                  "(-2.5, -3, -2), where its other nodes put it"});
   expect_taken(judged(change(8, {0, 0, 0}), 1));
-  expect_refused(judged(change(8, {-2.25, -3, -2}), 2), {"element 1 has the middle of an edge at (-2.25, -3, -2)"});
+  expect_refused(judged(change(8, {-2.25, -3, -2}), 2),
+                 {"element 1 has the middle of an edge at (-2.25, -3, -2)"});
   expect_taken(judged(change(8, {-2.5, -3.1, -2}), 2)); // curved, on the free wall
-  expect_refused(judged(change(26, {-2.3, -2.5, -1.5}), 2), {"element 1 has the middle of the cell at (-2.3, -2.5, "});
+  expect_refused(judged(change(26, {-2.3, -2.5, -1.5}), 2),
+                 {"element 1 has the middle of the cell at (-2.3, -2.5, "});
   // So curved that it goes through the opposite edge: 0.3 mm where the cell is 0.2 mm wide
   const SerialMesh thin =
       apart({{bottom_body, {{even(-3, 3, 6), even(-3, 3, 30), even(-2, 0, 2)}, lower_sides}}, upper});
   const auto bulging = [](int tag, std::vector<X> &node) {
     if (tag == 1) node[8][1] += 0.3;
   };
-  expect_refused(
-      judged(with_middles(thin, 20, bulging), 2),
-      {"element 1 is degenerate or folded at (-2.5, ", "the middle of an edge at (-2.5, -2.7, -2), 0.3 mm from"});
+  expect_refused(judged(with_middles(thin, 20, bulging), 2),
+                 {"element 1 is degenerate or folded at (-2.5, ",
+                  "the middle of an edge at (-2.5, -2.7, -2), 0.3 mm from"});
 }
 
-/// Edges in the order of Abaqus' C3D20 (and of CalculiX, Ansys, VTK) and of Exodus' HEX20 (Nastran, libMesh), from
-/// their manuals.
+/// Edges in the order of Abaqus' C3D20 (and of CalculiX, Ansys, VTK) and of Exodus' HEX20 (Nastran, libMesh),
+/// from their manuals.
 TEST(mesh_middles, NameTheProgramWhoseOrderItIs)
 {
   SerialMesh mesh = apart({lower, upper});
   for (auto &x : mesh.vertex) x = {x[0] + 0.2 * x[2], x[1], x[2]};
   using Edges = std::array<std::array<int, 2>, 12>;
-  const Edges abaqus{{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}},
-      exodus{{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 5}, {2, 6}, {3, 7}, {4, 5}, {5, 6}, {6, 7}, {7, 4}}};
+  const Edges abaqus{
+      {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}},
+      exodus{
+          {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 5}, {2, 6}, {3, 7}, {4, 5}, {5, 6}, {6, 7}, {7, 4}}};
   const auto in_order = [&](const Edges &edges, int nodes) {
     return with_middles(mesh, nodes, [&](int, std::vector<X> &node) {
       for (int e = 0; e < 12; ++e)

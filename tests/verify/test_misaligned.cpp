@@ -37,7 +37,8 @@ Measurement at_the_end(const Scene &scene)
 /// The meshes are their own images after a quarter of a turn: so are the results, to the solver's tolerance.
 TEST(misaligned, OffsetsAlongXAndYAreOneAnotherTurned)
 {
-  const Measurement x = at_the_end(misaligned_scene({{0.9, 0}, 0})), y = at_the_end(misaligned_scene({{0, 0.9}, 0}));
+  const Measurement x = at_the_end(misaligned_scene({{0.9, 0}, 0})),
+                    y = at_the_end(misaligned_scene({{0, 0.9}, 0}));
   const double N = x.normal_force, R = 10;
   EXPECT_NEAR(y.normal_force, N, 1e-7 * N);
   EXPECT_NEAR(y.torque, x.torque, 1e-7 * N * R);
@@ -53,7 +54,8 @@ TEST(misaligned, OffsetsAlongXAndYAreOneAnotherTurned)
 /// The other way inclined is the same plate half a turn later.
 TEST(misaligned, TiltsToEitherSideAreOneAnotherTurned)
 {
-  const Measurement one = at_the_end(misaligned_scene({{}, 0.01})), other = at_the_end(misaligned_scene({{}, -0.01}));
+  const Measurement one = at_the_end(misaligned_scene({{}, 0.01})),
+                    other = at_the_end(misaligned_scene({{}, -0.01}));
   const Measurement none = at_the_end(misaligned_scene({}));
   const double N = one.normal_force, R = 10;
   EXPECT_NEAR(other.normal_force, N, 1e-7 * N);

@@ -1,12 +1,13 @@
-/// Newton is quadratic at the end of a step: with e_k = |F_k| [N] after the active set (open, stick, slip of every
-/// slave node) last changed, e_(k+1) <= C e_k^2 down to the round-off floor, and C [1/N] is the same to a factor 10
-/// over the steps of a phase. F is in newtons whatever the load, so C is |F''| |J^-1|^2 / 2 and needs no scale.
+/// Newton is quadratic at the end of a step: with e_k = |F_k| [N] after the active set (open, stick, slip of
+/// every slave node) last changed, e_(k+1) <= C e_k^2 down to the round-off floor, and C [1/N] is the same to
+/// a factor 10 over the steps of a phase. F is in newtons whatever the load, so C is |F''| |J^-1|^2 / 2 and
+/// needs no scale.
 ///
-/// C of a step is the largest e_(k+1) / e_k^2 of its pairs whose e_(k+1) lies above the floor. The floor is where
-/// Newton stops when asked for 1e-14: 16 times the round-off of stresses and forces. A step counts with three residuals
-/// above it. Steps that are small, or that start from the last step's motion, converge in two: so -ts_atol 1.5e-3 makes
-/// larger ones and Newton starts from the last state. That the criterion can fail is shown by keeping the matrix for
-/// two iterations: then convergence is linear.
+/// C of a step is the largest e_(k+1) / e_k^2 of its pairs whose e_(k+1) lies above the floor. The floor is
+/// where Newton stops when asked for 1e-14: 16 times the round-off of stresses and forces. A step counts with
+/// three residuals above it. Steps that are small, or that start from the last step's motion, converge in
+/// two: so -ts_atol 1.5e-3 makes larger ones and Newton starts from the last state. That the criterion can
+/// fail is shown by keeping the matrix for two iterations: then convergence is linear.
 ///
 /// The program keeps the matrix too, where one more iteration with it is foreseen to be enough.
 #include "probe.hpp"
@@ -43,7 +44,8 @@ public:
     auto &self = *static_cast<NewtonWatch *>(context);
     if (iteration == 0) self.iterates.clear();
     const double size = norm(Probe::values(self.problem.magnitude));
-    const double rounding = norm(Probe::values(self.problem.round_off)) + std::numeric_limits<double>::epsilon() * size;
+    const double rounding =
+        norm(Probe::values(self.problem.round_off)) + std::numeric_limits<double>::epsilon() * size;
     Iterate now{residual, 16 * rounding, {}};
     now.active = self.problem.contact->lower_face().statuses();
     self.iterates.push_back(std::move(now));
@@ -135,7 +137,8 @@ struct KeptMatrices {
   }
 };
 
-const std::vector<std::pair<std::string, std::string>> to_the_floor = {{"-snes_rtol", "1e-14"}, {"-ts_atol", "1.5e-3"}};
+const std::vector<std::pair<std::string, std::string>> to_the_floor = {{"-snes_rtol", "1e-14"},
+                                                                       {"-ts_atol", "1.5e-3"}};
 
 } // namespace
 
@@ -150,7 +153,8 @@ TEST(newton, IsQuadraticOnThePaperSchedule)
   }
 }
 
-/// In space the cells in which surfaces meet are cut otherwise from one iterate to the next, which may not be seen.
+/// In space the cells in which surfaces meet are cut otherwise from one iterate to the next, which may not be
+/// seen.
 TEST(newton, IsQuadraticInSpace)
 {
   const SolverOptions options({{"-snes_rtol", "1e-14"}, {"-ts_atol", "1e-2"}});

@@ -1,4 +1,5 @@
-/// What a run says by itself: failures in words and by kind, and whether the friction law is asked what it can answer.
+/// What a run says by itself: failures in words and by kind, and whether the friction law is asked what it
+/// can answer.
 #include "probe.hpp"
 
 #include <algorithm>
@@ -85,9 +86,9 @@ TEST(notices, ANegativeCoefficientEndsTheRunAndSaysWhere)
   EXPECT_TRUE(contains(outcome.why, "the friction coefficient is -0.0")) << outcome.why;
   EXPECT_TRUE(contains(outcome.why, "mm, where the gels slide at ")) << outcome.why;
   EXPECT_EQ(recorder.rows.back().phase, 2);
-  const auto at_speed = std::find_if(recorder.notices.begin(), recorder.notices.end(), [](const std::string &notice) {
-    return contains(notice, "-friction_speed_range");
-  });
+  const auto at_speed =
+      std::find_if(recorder.notices.begin(), recorder.notices.end(),
+                   [](const std::string &notice) { return contains(notice, "-friction_speed_range"); });
   ASSERT_NE(at_speed, recorder.notices.end());
   EXPECT_TRUE(at_speed->starts_with("t = ") && !contains(*at_speed, "coefficient")) << *at_speed;
   EXPECT_FALSE(contains(outcome.why, "-friction_speed_range")) << outcome.why;
@@ -109,7 +110,8 @@ TEST(notices, AnOptionThatEndsTheRunIsNamed)
 TEST(notices, FrictionThatFallsFasterThanTheGelsHoldIsToldOnce)
 {
   // -dtau/dv = 0.05 p, about 2e-2 MPa s/mm; the gels hold 0.16 MPa/mm, so steps below 0.1 s are not unique.
-  const SolverOptions options(OptionList{{"-ts_max_steps", "40"}}); // where nothing is unique, steps get short
+  const SolverOptions options(
+      OptionList{{"-ts_max_steps", "40"}}); // where nothing is unique, steps get short
   Scene scene = turned_at(0.05, {0.2, -0.05});
   scene.schedule = schedule_from_rates({20, 20.1}, {0.4, 0.4}, {0, 0.05});
   for (const double slope : {-0.05, -1e-6, 1e-6}) {

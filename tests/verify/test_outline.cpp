@@ -1,5 +1,6 @@
-/// Curved outlines: the nodes, midside ones too, lie on the sphere, and areas and volumes come out at the order of the
-/// elements' geometry. A ring has no axis. Both on any number of ranks (parallel/test_ranks.cpp runs a cap).
+/// Curved outlines: the nodes, midside ones too, lie on the sphere, and areas and volumes come out at the
+/// order of the elements' geometry. A ring has no axis. Both on any number of ranks (parallel/test_ranks.cpp
+/// runs a cap).
 #include "outlines.hpp"
 #include "tribogel/element/cell.hpp"
 #include "tribogel/kinematics/axisymmetric.hpp"
@@ -70,8 +71,8 @@ TEST(outline, AreaAndVolumeOfACap)
     Body error[3];
     for (int level = 0; level < 3; ++level) {
       error[level] = errors_of_cap(order, 4 << level);
-      std::printf("order %d elements %2d: errors of area %.3e, volume %.3e\n", order, 4 << level, error[level].area,
-                  error[level].volume);
+      std::printf("order %d elements %2d: errors of area %.3e, volume %.3e\n", order, 4 << level,
+                  error[level].area, error[level].volume);
     }
     EXPECT_NEAR(std::log2(error[1].area / error[2].area), 2 * order, 0.2);
     EXPECT_NEAR(std::log2(error[1].volume / error[2].volume), 2 * order, 0.2);
@@ -80,7 +81,8 @@ TEST(outline, AreaAndVolumeOfACap)
   }
 }
 
-/// A refined mesh has every node of the one before, twice as many edges, and the same growth of their lengths.
+/// A refined mesh has every node of the one before, twice as many edges, and the same growth of their
+/// lengths.
 TEST(outline, RefinedMeshesAreNested)
 {
   Scene scene = paper_scene(9);
@@ -90,10 +92,13 @@ TEST(outline, RefinedMeshesAreNested)
   const std::vector<MeridianBlock> fine = meridian_blocks(scene);
   ASSERT_EQ(fine.size(), coarse.size());
   for (std::size_t b = 0; b < fine.size(); ++b)
-    for (const auto &[few, many] : {std::pair{&coarse[b].R, &fine[b].R}, std::pair{&coarse[b].Z, &fine[b].Z}}) {
+    for (const auto &[few, many] :
+         {std::pair{&coarse[b].R, &fine[b].R}, std::pair{&coarse[b].Z, &fine[b].Z}}) {
       ASSERT_EQ(many->size() - 1, 4 * (few->size() - 1));
-      for (std::size_t k = 0; k < few->size(); ++k) EXPECT_NEAR((*many)[4 * k], (*few)[k], 1e-13 * scene.bottom.radius);
-      EXPECT_LT(largest_ratio(*many), std::sqrt(largest_ratio(*few))); // four edges for one: nearly the fourth root
+      for (std::size_t k = 0; k < few->size(); ++k)
+        EXPECT_NEAR((*many)[4 * k], (*few)[k], 1e-13 * scene.bottom.radius);
+      EXPECT_LT(largest_ratio(*many),
+                std::sqrt(largest_ratio(*few))); // four edges for one: nearly the fourth root
     }
 }
 

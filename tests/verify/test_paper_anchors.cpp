@@ -1,8 +1,8 @@
-/// What the paper says of its own scene, and what the default run owes its user. From the paper: Fig. 8 (the bottom
-/// surface goes down by 0.31151 mm in the centre and 0.12338 mm at the edge of the patch), a contact radius of
-/// about 10.9 mm, Fig. 6 (the axial force does not notice the friction; the torque of mu = b1 v steps tenfold with the
-/// rate). The heights and the approach are calibrated to Fig. 8 (src/PAPER.md), so these three numbers check the
-/// calibration and the mesh.
+/// What the paper says of its own scene, and what the default run owes its user. From the paper: Fig. 8 (the
+/// bottom surface goes down by 0.31151 mm in the centre and 0.12338 mm at the edge of the patch), a contact
+/// radius of about 10.9 mm, Fig. 6 (the axial force does not notice the friction; the torque of mu = b1 v
+/// steps tenfold with the rate). The heights and the approach are calibrated to Fig. 8 (src/PAPER.md), so
+/// these three numbers check the calibration and the mesh.
 #include "scenes.hpp"
 
 #include <algorithm>
@@ -20,7 +20,8 @@ TEST(paper_anchors, TorqueStepsTenfoldWithTheRateAndForceDoesNotNoticeFriction)
   run(scene, slippery, without);
   ASSERT_EQ(with.phases.size(), 5u);
   for (std::size_t k = 0; k < 5; ++k)
-    EXPECT_NEAR(with.phases[k].measurement.normal_force / without.phases[k].measurement.normal_force, 1, 1e-4);
+    EXPECT_NEAR(with.phases[k].measurement.normal_force / without.phases[k].measurement.normal_force, 1,
+                1e-4);
   const auto torque = [&](int k) { return with.phases[k].measurement.torque; };
   EXPECT_NEAR(torque(3) / torque(2), 10, 1e-4);
   EXPECT_NEAR(torque(4) / torque(3), 10, 1e-2); // N grows a little with the torque at the fastest rate
@@ -46,7 +47,8 @@ TEST(paper_anchors, DefaultRunMeetsFigure8InFewIterationsAndLongSteps)
   }
   EXPECT_GE(longest_in_hold, 300);
   EXPECT_LE(most, 12);
-  int slipping = 0; // once the gels' twist has settled, every point slides at the plate's rate times its radius
+  int slipping =
+      0; // once the gels' twist has settled, every point slides at the plate's rate times its radius
   for (const ProfileRow &row : recorder.last_profile)
     if (row.status == std::string("slip")) {
       ++slipping;

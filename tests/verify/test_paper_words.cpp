@@ -1,5 +1,5 @@
-/// What the paper says in words about its Figs. 5 to 13, as statements. Those about Fig. 8 and the tenfold torque are
-/// in test_paper_anchors.cpp.
+/// What the paper says in words about its Figs. 5 to 13, as statements. Those about Fig. 8 and the tenfold
+/// torque are in test_paper_anchors.cpp.
 #include "scenes.hpp"
 
 #include <algorithm>
@@ -43,8 +43,9 @@ Scene pair(bool viscous_top, bool viscous_bottom)
 
 } // namespace
 
-/// Fig. 10: "the variation of the axial load is not dependent upon the change in the friction coefficient, while the
-/// torque is strongly dependent". Friction changes N through the gels' torsion alone, 1e-5 of it; the mesh does more.
+/// Fig. 10: "the variation of the axial load is not dependent upon the change in the friction coefficient,
+/// while the torque is strongly dependent". Friction changes N through the gels' torsion alone, 1e-5 of it;
+/// the mesh does more.
 TEST(paper_words, NormalForceDoesNotDependOnTheLawWithinItsOwnErrorAndTorqueDoes)
 {
   double lowest = INFINITY, highest = 0, least_torque = INFINITY, most_torque = 0;
@@ -62,9 +63,9 @@ TEST(paper_words, NormalForceDoesNotDependOnTheLawWithinItsOwnErrorAndTorqueDoes
   EXPECT_GT(most_torque, 5 * least_torque);
 }
 
-/// Fig. 7: "(3.11) slightly overestimates the converged weighted values". It does for the weights p dA and that
-/// figure's law. It does not for the weights dA, since the contact is wider than the undeformed radius; nor, even for
-/// the weights p dA, for case 3 of Table 2.
+/// Fig. 7: "(3.11) slightly overestimates the converged weighted values". It does for the weights p dA and
+/// that figure's law. It does not for the weights dA, since the contact is wider than the undeformed radius;
+/// nor, even for the weights p dA, for case 3 of Table 2.
 TEST(paper_words, Equation311OverestimatesThePressureWeightedCoefficientAlone)
 {
   const double over_pressure_weighted[] = {1.005, 1.005, 1.008, 0.992},
@@ -76,8 +77,9 @@ TEST(paper_words, Equation311OverestimatesThePressureWeightedCoefficientAlone)
   }
 }
 
-/// Figs. 12, 13: "the steady state (long term) values of the torque, normal force and apparent coefficient of friction
-/// are independent of the model", which leaves out the relaxation. Fig. 6: "the torque presents step jumps".
+/// Figs. 12, 13: "the steady state (long term) values of the torque, normal force and apparent coefficient of
+/// friction are independent of the model", which leaves out the relaxation. Fig. 6: "the torque presents step
+/// jumps".
 TEST(paper_words, LongTermValuesDoNotDependOnTheViscosityAndTorqueJumps)
 {
   const bool kinds[3][2] = {{true, true}, {false, true}, {false, false}};
@@ -94,7 +96,8 @@ TEST(paper_words, LongTermValuesDoNotDependOnTheViscosityAndTorqueJumps)
       peak[k] = std::max(peak[k], row.measurement.normal_force / N);
       if (row.phase < 3) continue;
       const PhaseEnd &end = ends[k][static_cast<std::size_t>(row.phase - 1)];
-      EXPECT_NEAR(row.measurement.normal_force / N, 1, 2e-4); // "approximatively constant when rotation is applied"
+      EXPECT_NEAR(row.measurement.normal_force / N, 1,
+                  2e-4); // "approximatively constant when rotation is applied"
       if (row.time - ends[k][static_cast<std::size_t>(row.phase - 2)].time > 10) {
         EXPECT_NEAR(row.measurement.torque / end.measurement.torque, 1, 1e-3) << row.time;
       }
@@ -114,9 +117,9 @@ TEST(paper_words, LongTermValuesDoNotDependOnTheViscosityAndTorqueJumps)
   EXPECT_LT(peak[2], 1.001);
 }
 
-/// Fig. 5: "the normal force increases when the torque is applied". The plates' distance and the twist theta are given,
-/// so N = dW/d(approach): it rises by the integral of dT/d(approach) over theta, 1/2 theta^2 dk/d(approach) for small
-/// ones.
+/// Fig. 5: "the normal force increases when the torque is applied". The plates' distance and the twist theta
+/// are given, so N = dW/d(approach): it rises by the integral of dT/d(approach) over theta, 1/2 theta^2
+/// dk/d(approach) for small ones.
 TEST(paper_words, NormalForceOfATwistedGelRisesByWhatItsTorsionalStiffnessGains)
 {
   const double approach = 0.414, step = 0.004, twist = 0.05;
@@ -124,9 +127,9 @@ TEST(paper_words, NormalForceOfATwistedGelRisesByWhatItsTorsionalStiffnessGains)
   scene.has_top = false;
   scene.bottom = {10, 4.4, viscoelastic_gel()};
   scene.schedule_kind = ScheduleKind::steady;
-  scene.schedule =
-      schedule_from_twists({100, 200, 300, 400, 500}, {approach, approach, approach, approach + step, approach - step},
-                           {0, twist, 2 * twist, twist, twist});
+  scene.schedule = schedule_from_twists({100, 200, 300, 400, 500},
+                                        {approach, approach, approach, approach + step, approach - step},
+                                        {0, twist, 2 * twist, twist, twist});
   Problem problem;
   Recorder recorder("");
   run(scene, problem, recorder);

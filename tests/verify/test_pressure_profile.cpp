@@ -1,20 +1,21 @@
-/// The contact pressure over the patch on matching and non-matching meshes: smooth, and right against a fine run. Two
-/// bonded gels of the paper's shape are pressed. A nodal pressure is not a value at a point: its node's force is D_a
-/// p_a, so that p_a stands for the mean of p weighted with the node's shape function,
+/// The contact pressure over the patch on matching and non-matching meshes: smooth, and right against a fine
+/// run. Two bonded gels of the paper's shape are pressed. A nodal pressure is not a value at a point: its
+/// node's force is D_a p_a, so that p_a stands for the mean of p weighted with the node's shape function,
 ///
 ///     p_a = int N_a p R dR / int N_a R dR,
 ///
-/// and that mean of a fine matching mesh of order 2 is what it is held against, within 0.85 of the top's radius (the
-/// rim is singular). On facets of length h the mean lies above p by p'' h^2 / 40 at a midside node of order 2 and below
-/// it by p'' h^2 / 20 at an end node: of nodal values drawn at their nodes every other one is off, on any mesh.
+/// and that mean of a fine matching mesh of order 2 is what it is held against, within 0.85 of the top's
+/// radius (the rim is singular). On facets of length h the mean lies above p by p'' h^2 / 40 at a midside
+/// node of order 2 and below it by p'' h^2 / 20 at an end node: of nodal values drawn at their nodes every
+/// other one is off, on any mesh.
 ///
 ///     error = (p_a - mean) / p_fine(axis)
-///     zigzag = the largest amplitude with which the error, taken off the line through a node's neighbours, changes
-///     sign
+///     zigzag = the largest amplitude with which the error, taken off the line through a node's neighbours,
+///     changes sign
 ///              at three nodes in a row
 ///
-/// An unstable multiplier or a quadrature that misses the kinks of the other mesh would leave a zigzag; a smooth error
-/// has none, however large.
+/// An unstable multiplier or a quadrature that misses the kinks of the other mesh would leave a zigzag; a
+/// smooth error has none, however large.
 #include "scenes.hpp"
 #include "solver_options.hpp"
 
@@ -33,7 +34,8 @@ struct NodalValue {
 
 constexpr double part = 0.85, radius = 10;
 
-/// Nodes of the pressed top's lower face, from the axis outwards; what stands on the axis of order 2 is no mean.
+/// Nodes of the pressed top's lower face, from the axis outwards; what stands on the axis of order 2 is no
+/// mean.
 std::vector<NodalValue> pressed(int order, int top, int bottom)
 {
   const double end = 27;
@@ -69,13 +71,15 @@ double at(const std::vector<NodalValue> &fine, double R)
 }
 
 /// The fine run's means over the shape functions of these nodes.
-std::vector<double> means(const std::vector<NodalValue> &nodes, int order, const std::vector<NodalValue> &fine)
+std::vector<double> means(const std::vector<NodalValue> &nodes, int order,
+                          const std::vector<NodalValue> &fine)
 {
   constexpr int points = 200; // of the midpoint rule on a facet
   std::vector<double> integral(nodes.size(), 0.0), weight(nodes.size(), 0.0);
   for (std::size_t first = 0; first + order < nodes.size(); first += order)
     for (int q = 0; q < points; ++q) {
-      const double s = (q + 0.5) / points, h = nodes[first + order].R - nodes[first].R, R = nodes[first].R + s * h;
+      const double s = (q + 0.5) / points, h = nodes[first + order].R - nodes[first].R,
+                   R = nodes[first].R + s * h;
       const std::array<double, 3> N =
           order == 1 ? std::array<double, 3>{1 - s, s, 0}
                      : std::array<double, 3>{(1 - s) * (1 - 2 * s), 4 * s * (1 - s), s * (2 * s - 1)};
@@ -107,7 +111,8 @@ Deviation deviation(const std::vector<NodalValue> &error)
     bend.push_back(error[k].p - between(error[k - 1], error[k + 1], error[k].R));
   for (std::size_t k = 1; k + 1 < bend.size(); ++k)
     if (bend[k] * bend[k - 1] < 0 && bend[k] * bend[k + 1] < 0)
-      d.zigzag = std::max(d.zigzag, std::min({std::abs(bend[k - 1]), std::abs(bend[k]), std::abs(bend[k + 1])}));
+      d.zigzag =
+          std::max(d.zigzag, std::min({std::abs(bend[k - 1]), std::abs(bend[k]), std::abs(bend[k + 1])}));
   return d;
 }
 
@@ -124,8 +129,8 @@ Deviation measure(int order, int top, int bottom, const std::vector<NodalValue> 
     bare.push_back({nodes[a].R, (nodes[a].p - at(fine, nodes[a].R)) / scale});
   }
   const Deviation d = deviation(error);
-  std::printf("| %d | %d | %d | %.1e | %.1e | %.1e | %.1e |\n", order, top, bottom, d.root_mean_square, d.largest,
-              d.zigzag, deviation(bare).zigzag);
+  std::printf("| %d | %d | %d | %.1e | %.1e | %.1e | %.1e |\n", order, top, bottom, d.root_mean_square,
+              d.largest, d.zigzag, deviation(bare).zigzag);
   return d;
 }
 
@@ -139,11 +144,11 @@ TEST(pressure_profile, SmoothAndRightOnMatchingAndNonMatchingMeshes)
     double root_mean_square, largest, zigzag; ///< bounds
   };
   const std::vector<NodalValue> fine = pressed(2, 16, 16);
-  for (const Case &c :
-       {Case{1, 8, 8, 0.03, 0.04, 0.003}, Case{1, 8, 10, 0.03, 0.04, 0.005}, Case{1, 4, 40, 0.04, 0.05, 0.003},
-        Case{1, 20, 2, 0.08, 0.2, 0.003}, Case{2, 4, 4, 0.007, 0.01, 0.007}, Case{2, 8, 8, 0.0015, 0.0025, 0.0015},
-        Case{2, 8, 10, 0.0015, 0.0025, 0.0015}, Case{2, 4, 40, 0.005, 0.008, 0.005},
-        Case{2, 20, 2, 0.013, 0.07, 0.0015}}) {
+  for (const Case &c : {Case{1, 8, 8, 0.03, 0.04, 0.003}, Case{1, 8, 10, 0.03, 0.04, 0.005},
+                        Case{1, 4, 40, 0.04, 0.05, 0.003}, Case{1, 20, 2, 0.08, 0.2, 0.003},
+                        Case{2, 4, 4, 0.007, 0.01, 0.007}, Case{2, 8, 8, 0.0015, 0.0025, 0.0015},
+                        Case{2, 8, 10, 0.0015, 0.0025, 0.0015}, Case{2, 4, 40, 0.005, 0.008, 0.005},
+                        Case{2, 20, 2, 0.013, 0.07, 0.0015}}) {
     const Deviation d = measure(c.order, c.top, c.bottom, fine);
     EXPECT_LE(d.root_mean_square, c.root_mean_square) << c.order << " " << c.top << " " << c.bottom;
     EXPECT_LE(d.largest, c.largest) << c.order << " " << c.top << " " << c.bottom;
@@ -154,7 +159,8 @@ TEST(pressure_profile, SmoothAndRightOnMatchingAndNonMatchingMeshes)
 TEST(pressure_profile, DISABLED_Table)
 {
   const std::vector<NodalValue> fine = pressed(2, 32, 32);
-  std::printf("| order | top | bottom | rms | largest | zigzag | of nodal values |\n|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "| order | top | bottom | rms | largest | zigzag | of nodal values |\n|---|---|---|---|---|---|---|\n");
   for (int order : {1, 2})
     for (int n : {4, 8, 16})
       for (int bottom : {n, (4 * n) / 3}) measure(order, n, bottom, fine);

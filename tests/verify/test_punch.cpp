@@ -1,15 +1,15 @@
 /// A flat punch of radius a on a half-space.
 ///
-/// Indentation without friction by a rigid punch, C9: F = 2 E* a delta. A finite block of width L yields less, delta =
-/// F/(2 E* a) + c F/(E* L) (1 + O(a^2/L^2)), c < 0 the same for similar blocks, so that two widths give the half-space:
-/// delta/F = 2 (delta/F)_2L - (delta/F)_L.
+/// Indentation without friction by a rigid punch, C9: F = 2 E* a delta. A finite block of width L yields
+/// less, delta = F/(2 E* a) + c F/(E* L) (1 + O(a^2/L^2)), c < 0 the same for similar blocks, so that two
+/// widths give the half-space: delta/F = 2 (delta/F)_2L - (delta/F)_L.
 ///
-/// Torsion of a bonded punch, C8: T = 16/3 G a^3 theta; a finite block errs (a/L)^3 only. Coulomb friction of a
-/// coefficient that nothing overcomes is the bond.
+/// Torsion of a bonded punch, C8: T = 16/3 G a^3 theta; a finite block errs (a/L)^3 only. Coulomb friction of
+/// a coefficient that nothing overcomes is the bond.
 ///
-/// The tractions are infinite at the edge, as the root of 1/distance. Meshes whose n-th line from the edge lies at a
-/// distance proportional to n^grade restore order 2 of the energy for elements of order 1 (grade > 2); with grade 3 the
-/// others have order 3. Finer edges than the indentation would fold.
+/// The tractions are infinite at the edge, as the root of 1/distance. Meshes whose n-th line from the edge
+/// lies at a distance proportional to n^grade restore order 2 of the energy for elements of order 1 (grade >
+/// 2); with grade 3 the others have order 3. Finer edges than the indentation would fold.
 #include "outlines.hpp"
 
 #include <numbers>
@@ -22,7 +22,8 @@ namespace
 
 constexpr double a = 1.3, pi = std::numbers::pi;
 
-/// The punch is this much stiffer than the block and counts as rigid: its own compliance is corrected in torsion.
+/// The punch is this much stiffer than the block and counts as rigid: its own compliance is corrected in
+/// torsion.
 constexpr double stiffness_ratio = 1e4;
 
 /// 0 to `length` in n steps, finer towards 0.
@@ -89,7 +90,8 @@ double compliance(const Punch &is)
   Recorder recorder("");
   const PhaseEnd end = last_phase(is, 0, problem, recorder);
   const double E = Elastic(problem.scene.bottom.material.equilibrium).plane();
-  const double own = 1 / (pi * a * stiffness_ratio * Elastic(problem.scene.bottom.material.equilibrium).young());
+  const double own =
+      1 / (pi * a * stiffness_ratio * Elastic(problem.scene.bottom.material.equilibrium).young());
   return (end.approach / end.measurement.normal_force - own) * 2 * E * a;
 }
 
@@ -97,8 +99,8 @@ double indentation_error(int order, int elements, double width)
 {
   const double narrow = compliance({order, elements, width}), wide = compliance({order, elements, 2 * width});
   const double error = 1 / (2 * wide - narrow) - 1;
-  std::printf("order %d elements %2d L/a %2.0f: 2 E* a delta/F %.5f %.5f, error of F %.2e\n", order, elements, width,
-              narrow, wide, error);
+  std::printf("order %d elements %2d L/a %2.0f: 2 E* a delta/F %.5f %.5f, error of F %.2e\n", order, elements,
+              width, narrow, wide, error);
   std::fflush(stdout);
   return error;
 }
@@ -110,7 +112,8 @@ double torsion_error(int order, int elements)
   Recorder recorder("");
   const double theta = 1e-5, T = last_phase(is, theta, problem, recorder).measurement.torque;
   const double G = problem.scene.bottom.material.equilibrium.shear_modulus();
-  const double own = 2 / (pi * stiffness_ratio * G * std::pow(a, 3)); // compliance of a cylinder as high as wide
+  const double own =
+      2 / (pi * stiffness_ratio * G * std::pow(a, 3)); // compliance of a cylinder as high as wide
   const double error = T / (theta - T * own) / (16.0 / 3 * G * std::pow(a, 3)) - 1;
   std::printf("order %d elements %2d: error of T %.2e\n", order, elements, error);
   std::fflush(stdout);

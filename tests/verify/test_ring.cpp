@@ -1,6 +1,6 @@
-/// Two equal rings on lubricated plates, C12: uniform pressure as under discs (a ring of inner radius A and outer
-/// radius R keeps A/R and presses by the same scalar equation), and in steady rotation the difference of two C4
-/// integrals,
+/// Two equal rings on lubricated plates, C12: uniform pressure as under discs (a ring of inner radius A and
+/// outer radius R keeps A/R and presses by the same scalar equation), and in steady rotation the difference
+/// of two C4 integrals,
 ///
 ///     T/N = 2 sum_m b_m omega^m (R^(m+3) - A^(m+3))/((m+3) (R^2 - A^2)),    N = p pi (R^2 - A^2).
 ///
@@ -46,9 +46,11 @@ double torque_error(int order, int elements, const std::vector<double> &b)
   double exact = 0;
   for (std::size_t k = 0; k < b.size(); ++k)
     exact += 2 * b[k] * std::pow(omega, exponents[k]) *
-             (std::pow(R, exponents[k] + 3) - std::pow(A, exponents[k] + 3)) / ((exponents[k] + 3) * (R * R - A * A));
+             (std::pow(R, exponents[k] + 3) - std::pow(A, exponents[k] + 3)) /
+             ((exponents[k] + 3) * (R * R - A * A));
   const double error = m.torque / m.normal_force / exact - 1;
-  std::printf("order %d elements %2d b = (%g, %g, %g): error of T %.2e\n", order, elements, b[0], b[1], b[2], error);
+  std::printf("order %d elements %2d b = (%g, %g, %g): error of T %.2e\n", order, elements, b[0], b[1], b[2],
+              error);
   return error;
 }
 

@@ -1,13 +1,13 @@
 /// The 3-D bulk without contact.
 ///
-/// Patch: a linear displacement with a constant F = 1 + H of any size is in equilibrium: the nodal forces vanish at
-/// inner nodes, and those of a plane end add up to P N A, on any mesh (curved cells too: the Gauss rules do the
-/// cofactors of isoparametric cells exactly).
+/// Patch: a linear displacement with a constant F = 1 + H of any size is in equilibrium: the nodal forces
+/// vanish at inner nodes, and those of a plane end add up to P N A, on any mesh (curved cells too: the Gauss
+/// rules do the cofactors of isoparametric cells exactly).
 ///
 /// Frame, B8: x -> Q x + d turns the nodal forces by Q. In any state they have neither resultant nor moment.
 ///
-/// Torsion, B2, and locking, B10: as in test_torsion.cpp and test_locking.cpp; here the twist is no element of the
-/// discrete space, so the errors are those of the mesh and fall under refinement.
+/// Torsion, B2, and locking, B10: as in test_torsion.cpp and test_locking.cpp; here the twist is no element
+/// of the discrete space, so the errors are those of the mesh and fall under refinement.
 #include "solids.hpp"
 
 #include <numbers>
@@ -35,7 +35,8 @@ struct Forces {
 Forces forces(const Problem &problem, const std::vector<double> &U)
 {
   Forces f{std::vector<double>(U.size(), 0), std::vector<double>(U.size(), 0)};
-  EXPECT_FALSE(problem.bulk->AddResidual(U.data(), problem.state.history, {0.37}, f.F.data(), f.magnitude.data()));
+  EXPECT_FALSE(
+      problem.bulk->AddResidual(U.data(), problem.state.history, {0.37}, f.F.data(), f.magnitude.data()));
   return f;
 }
 
@@ -83,8 +84,8 @@ void expect_patch(Problem &problem, double distance, double end_area)
   }
   const Vector exact = first_piola(problem.scene.bottom.material, F).col(2) * end_area;
   std::printf("order %d, %zu cells: inner forces %.2e of %.2e N, error of the end's %.2e of %.2e N\n",
-              problem.mesh.order, problem.mesh.cells.size(), worst, largest(f.magnitude), (end - exact).norm(),
-              exact.norm());
+              problem.mesh.order, problem.mesh.cells.size(), worst, largest(f.magnitude),
+              (end - exact).norm(), exact.norm());
   EXPECT_LT(worst, 2e-14 * problem.scene.bottom.material.equilibrium.bulk_modulus * a * a);
   EXPECT_LT((end - exact).norm(), 1e-12 * exact.norm());
 }
@@ -149,7 +150,8 @@ TEST(solid_bulk, LinearDisplacementsPassThePatchTestInACylinder)
   }
 }
 
-/// Compressed between lubricated plates, a quarter of a block is uniform (test_bulk_patch.cpp, through Newton and TS).
+/// Compressed between lubricated plates, a quarter of a block is uniform (test_bulk_patch.cpp, through Newton
+/// and TS).
 TEST(solid_bulk, AQuarterOfABlockIsUniform)
 {
   const Box box{{even(0, 2, 2), even(0, 1.5, 2), even(-height, 0, 3)},
@@ -166,7 +168,8 @@ TEST(solid_bulk, AQuarterOfABlockIsUniform)
     std::string why;
     ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, scene, box.mesh()), 0);
     jostle(problem.mesh, 0.15, [&](const auto &X) {
-      return X[0] > 0.01 && X[0] < 1.99 && X[1] > 0.01 && X[1] < 1.49 && X[2] > -0.99 * height && X[2] < -0.01;
+      return X[0] > 0.01 && X[0] < 1.99 && X[1] > 0.01 && X[1] < 1.49 && X[2] > -0.99 * height &&
+             X[2] < -0.01;
     });
     ASSERT_EQ(Bulk::Create(problem.mesh, problem.scene, problem.bulk), 0);
     ASSERT_EQ(problem.BuildMatrix(), 0);
@@ -193,7 +196,8 @@ TEST(solid_bulk, AQuarterOfABlockIsUniform)
     ASSERT_EQ(VecRestoreArrayRead(U, &u), 0);
     ASSERT_EQ(VecDestroy(&U), 0);
     ASSERT_EQ(VecDestroy(&Udot), 0);
-    std::printf("order %d: force %.15g of %.15g, largest error of a displacement %.2e mm\n", order, N, exact, worst);
+    std::printf("order %d: force %.15g of %.15g, largest error of a displacement %.2e mm\n", order, N, exact,
+                worst);
     EXPECT_NEAR(N / exact, 1, 1e-10);
     EXPECT_LT(worst, 1e-10);
   }
@@ -220,8 +224,8 @@ TEST(solid_bulk, TurningAndLiftingTurnsTheForces)
       sum += before.of(node);
       moment += some(at(node.X)).cross(before.of(node));
     }
-    std::printf("order %d: change of the forces %.2e of %.2e N; resultant %.2e N, moment %.2e N mm\n", order, change,
-                size, sum.norm(), moment.norm());
+    std::printf("order %d: change of the forces %.2e of %.2e N; resultant %.2e N, moment %.2e N mm\n", order,
+                change, size, sum.norm(), moment.norm());
     EXPECT_GT(size, 1);
     EXPECT_LT(change, 1e-12 * size);
     EXPECT_LT(sum.norm(), 1e-12 * size);
@@ -229,8 +233,8 @@ TEST(solid_bulk, TurningAndLiftingTurnsTheForces)
   }
 }
 
-/// Height and radius are equal, and with two elements a side the outline has eight corners: each further mesh halves
-/// all edges.
+/// Height and radius are equal, and with two elements a side the outline has eight corners: each further mesh
+/// halves all edges.
 TEST(solid_bulk, TorsionConvergesToTheUniversalSolution)
 {
   constexpr double G = 0.7, psi = 0.021, T = pi / 2 * G * psi * a * a * a * a,
@@ -246,7 +250,8 @@ TEST(solid_bulk, TorsionConvergesToTheUniversalSolution)
       run(scene, problem, recorder);
       const Measurement &m = recorder.rows.back().measurement;
       const double error = m.torque / T - 1;
-      std::printf("order %d elements %d: errors of T %.3e, N %.3e\n", order, elements, error, m.normal_force / N - 1);
+      std::printf("order %d elements %d: errors of T %.3e, N %.3e\n", order, elements, error,
+                  m.normal_force / N - 1);
       if (before != 0) {
         EXPECT_GT(before / std::abs(error), order == 1 ? 3.5 : 12);
       }
@@ -256,8 +261,8 @@ TEST(solid_bulk, TorsionConvergesToTheUniversalSolution)
   }
 }
 
-/// B10: same levels in both models; thin disc theory is about 2 % low. Between K/G of 1e4 and 1e5 nothing stiffens but
-/// the disc: the difference of the models is the outline's.
+/// B10: same levels in both models; thin disc theory is about 2 % low. Between K/G of 1e4 and 1e5 nothing
+/// stiffens but the disc: the difference of the models is the outline's.
 TEST(solid_bulk, AThinDiscDoesNotLock)
 {
   constexpr double radius = 7, thin = 0.7, G = 0.6, strain = 1e-4;
@@ -281,16 +286,17 @@ TEST(solid_bulk, AThinDiscDoesNotLock)
         N[k] = recorder.rows.back().measurement.normal_force / (pi * radius * radius * strain * G);
       }
       difference[each] = N[1] / N[0] - 1;
-      std::printf("order %d, K/G %.0e: E_c/G %.2f, axisymmetric %.2f, thin disc %.2f\n", order, bulk_over_shear, N[1],
-                  N[0], E_c);
+      std::printf("order %d, K/G %.0e: E_c/G %.2f, axisymmetric %.2f, thin disc %.2f\n", order,
+                  bulk_over_shear, N[1], N[0], E_c);
       EXPECT_NEAR(N[1] / E_c, 1.02, order == 1 ? 0.1 : 0.03);
     }
     EXPECT_NEAR(difference[3], difference[2], 0.1 * std::abs(difference[2])) << "order " << order;
   }
 }
 
-/// A bonded gel pressed and then twisted: force and torque approach those of the half plane with the same edges. The
-/// torque's error is that of the outline; the force's, of the singular line where wall and plate meet, falls slowly.
+/// A bonded gel pressed and then twisted: force and torque approach those of the half plane with the same
+/// edges. The torque's error is that of the outline; the force's, of the singular line where wall and plate
+/// meet, falls slowly.
 TEST(solid_bulk, ApproachesTheAxisymmetricModel)
 {
   for (int order : {1, 2}) {
@@ -309,8 +315,8 @@ TEST(solid_bulk, ApproachesTheAxisymmetricModel)
         m[k] = recorder.rows.back().measurement;
       }
       const double errors[2] = {m[1].normal_force / m[0].normal_force - 1, m[1].torque / m[0].torque - 1};
-      std::printf("order %d elements %d: N %.5f, T %.5f; differences %.3e, %.3e\n", order, elements, m[1].normal_force,
-                  m[1].torque, errors[0], errors[1]);
+      std::printf("order %d elements %d: N %.5f, T %.5f; differences %.3e, %.3e\n", order, elements,
+                  m[1].normal_force, m[1].torque, errors[0], errors[1]);
       for (int i = 0; i < 2; ++i) {
         if (before[i] != 0) {
           EXPECT_LT(std::abs(errors[i]), before[i] / (order == 1 ? 3 : 2));

@@ -1,5 +1,5 @@
-/// Hertz's contact in space, C5 to C7: the scene of hertz.hpp with hexahedra. Too long for every day; the tables of
-/// tests/README.md come from here.
+/// Hertz's contact in space, C5 to C7: the scene of hertz.hpp with hexahedra. Too long for every day; the
+/// tables of tests/README.md come from here.
 #include "hertz.hpp"
 
 namespace tribogel::test
@@ -48,8 +48,8 @@ Errors errors_of(const HertzScene &is, const Problem &problem, const Recorder &r
 
 } // namespace
 
-/// A cap and a block not much larger than the contact, pressed and slid: the axisymmetric model on the same radii and
-/// heights, up to what facets make of the circle.
+/// A cap and a block not much larger than the contact, pressed and slid: the axisymmetric model on the same
+/// radii and heights, up to what facets make of the circle.
 TEST(solid_hertz, ACapPressesAndSlidesAsInTheHalfPlane)
 {
   HertzScene is{1, 0};
@@ -90,8 +90,8 @@ TEST(solid_hertz, DISABLED_PressureAndViscousTorque)
   const Hertz hertz(is, m.normal_force);
   const double torque = m.torque / (2.0 / 5 * b * hertz.N * omega * hertz.radius * hertz.radius) - 1;
   std::printf("order 1 a/h 4 unknowns %6d newton %2d: errors of radius %.2e, pressure %.2e, T %.2e\n",
-              static_cast<int>(problem.mesh.unknowns), static_cast<int>(problem.counts.newton_iterations), e.radius,
-              e.pressure, torque);
+              static_cast<int>(problem.mesh.unknowns), static_cast<int>(problem.counts.newton_iterations),
+              e.radius, e.pressure, torque);
   EXPECT_LT(std::abs(e.radius), 0.03);
   EXPECT_LT(e.pressure, 0.1);
   EXPECT_LT(std::abs(torque), 0.06);
@@ -110,7 +110,8 @@ TEST(solid_hertz, DISABLED_PartialAndFullSlip)
   const SolverOptions options(list);
   Problem problem;
   Recorder recorder("");
-  run(in_space(is, schedule_from_twists({1, 2, 3}, {d, d, d}, {0, twist, 10 * twist})), is.blocks(), problem, recorder);
+  run(in_space(is, schedule_from_twists({1, 2, 3}, {d, d, d}, {0, twist, 10 * twist})), is.blocks(), problem,
+      recorder);
   double error[2];
   for (const std::size_t k : {0, 1}) {
     const Measurement &m = recorder.phases[k + 1].measurement;
@@ -118,8 +119,8 @@ TEST(solid_hertz, DISABLED_PartialAndFullSlip)
     error[k] = m.torque / (mu * hertz.N * hertz.radius) / (k == 0 ? 0.528576 : 3 * pi / 16) - 1;
   }
   std::printf("order 1 a/h 4 unknowns %d newton %d: errors of T at c/a = 0.5 %.2e, 0 %.2e\n",
-              static_cast<int>(problem.mesh.unknowns), static_cast<int>(problem.counts.newton_iterations), error[0],
-              error[1]);
+              static_cast<int>(problem.mesh.unknowns), static_cast<int>(problem.counts.newton_iterations),
+              error[0], error[1]);
   std::fflush(stdout);
   for (double e : error) EXPECT_LT(std::abs(e), 0.05);
 }

@@ -1,6 +1,7 @@
-/// The O-grid cylinders and their surfaces, by exact geometry: every midside node of the outline lies on its circle,
-/// cells are not inside out, volumes converge at the order of the sides' interpolation, and the facets of the surfaces
-/// point out of the bodies: their vector areas add up to those of the plane faces, and to nothing round the wall.
+/// The O-grid cylinders and their surfaces, by exact geometry: every midside node of the outline lies on its
+/// circle, cells are not inside out, volumes converge at the order of the sides' interpolation, and the
+/// facets of the surfaces point out of the bodies: their vector areas add up to those of the plane faces, and
+/// to nothing round the wall.
 #include "solids.hpp"
 
 #include "tribogel/contact/quad_facet.hpp"
@@ -102,7 +103,8 @@ TEST(solid_mesh, NodesOfTheOutlineLieOnTheCircle)
       ASSERT_NO_FATAL_FAILURE(build(scene, mesh));
       int on_wall = 0;
       for (const Node &node : mesh.nodes) {
-        const double r = std::hypot(node.X[0], node.X[1]), R = node.body ? scene.top.radius : scene.bottom.radius;
+        const double r = std::hypot(node.X[0], node.X[1]),
+                     R = node.body ? scene.top.radius : scene.bottom.radius;
         EXPECT_LE(r, R * (1 + 1e-15));
         if (!node.on(Side::wall)) continue;
         EXPECT_NEAR(r, R, 1e-14 * R);
@@ -123,8 +125,10 @@ TEST(solid_mesh, CellsAreSoundAndVolumesConverge)
         ASSERT_NO_FATAL_FAILURE(build(scene, mesh));
         const Size size = order == 1 ? size_of<1>(mesh) : size_of<2>(mesh);
         const double error = 1 - size.volume[top_body] / (pi * 100 * 4.4);
-        std::printf("order %d grading %g elements %2d: %zu cells, %d unknowns, smallest Jacobian %.3f, volume %.2e\n",
-                    order, grading, elements, mesh.cells.size(), static_cast<int>(mesh.unknowns), size.smallest, error);
+        std::printf(
+            "order %d grading %g elements %2d: %zu cells, %d unknowns, smallest Jacobian %.3f, volume %.2e\n",
+            order, grading, elements, mesh.cells.size(), static_cast<int>(mesh.unknowns), size.smallest,
+            error);
         EXPECT_GT(size.smallest, 0.5);
         if (before > 0 && grading == 1) {
           EXPECT_GT(before / std::abs(error), order == 1 ? 3.9 : 14);
@@ -143,7 +147,8 @@ TEST(solid_mesh, CountsElementsAlongTheRadius)
     ASSERT_NO_FATAL_FAILURE(build(scene, mesh));
     int along = -1;
     for (const Node &node : mesh.nodes)
-      along += node.body == top_body && node.on(Side::slave) && std::abs(node.X[1]) < 1e-12 && node.X[0] > -1e-12;
+      along +=
+          node.body == top_body && node.on(Side::slave) && std::abs(node.X[1]) < 1e-12 && node.X[0] > -1e-12;
     EXPECT_EQ(along, elements);
   }
 }
@@ -158,7 +163,8 @@ TEST(solid_mesh, SurfacesPointOutwards)
     const auto area = [order](const Surface &surface) {
       return order == 1 ? area_of<1>(surface) : area_of<2>(surface);
     };
-    const Area slave = area(mesh.slave), master = area(mesh.master), wall[2] = {area(mesh.wall[0]), area(mesh.wall[1])};
+    const Area slave = area(mesh.slave), master = area(mesh.master),
+               wall[2] = {area(mesh.wall[0]), area(mesh.wall[1])};
     const double A[2] = {size.volume[0] / scene.bottom.height, size.volume[1] / scene.top.height};
     EXPECT_LT((slave.vector - Vector3<double>(0, 0, -A[1])).norm(), 1e-12 * A[1]);
     EXPECT_LT((master.vector - Vector3<double>(0, 0, A[0])).norm(), 1e-12 * A[0]);
@@ -168,7 +174,8 @@ TEST(solid_mesh, SurfacesPointOutwards)
     }
     double sum = 0, smallest = A[0];
     for (const auto &facet : mesh.slave.facet)
-      for (const double weight : order == 1 ? weights_of<1>(mesh.slave, facet) : weights_of<2>(mesh.slave, facet)) {
+      for (const double weight :
+           order == 1 ? weights_of<1>(mesh.slave, facet) : weights_of<2>(mesh.slave, facet)) {
         sum += weight;
         smallest = std::min(smallest, weight);
       }
@@ -179,7 +186,8 @@ TEST(solid_mesh, SurfacesPointOutwards)
         static_cast<std::size_t>(std::count_if(mesh.slave.node.begin(), mesh.slave.node.end(), [&](auto &n) {
           return std::hypot(n.X[0], n.X[1]) > (1 - 1e-12) * scene.top.radius;
         }));
-    EXPECT_EQ(mesh.slave.node.size(), 1 + mesh.slave.facet.size() * (order == 1 ? 1 : 4) + rim / 2); // Euler: a disc
+    EXPECT_EQ(mesh.slave.node.size(),
+              1 + mesh.slave.facet.size() * (order == 1 ? 1 : 4) + rim / 2); // Euler: a disc
   }
 }
 

@@ -1,12 +1,13 @@
-/// A flat punch of radius a on a half-space of hexahedra, without contact: displacements are prescribed below it.
+/// A flat punch of radius a on a half-space of hexahedra, without contact: displacements are prescribed below
+/// it.
 ///
-/// C8, bonded and turned: T = 16/3 G a^3 theta; a finite block errs (a/L)^3 only. C9, pressed without friction: F = 2
-/// E* a delta; a finite block of width and height L errs c a/L, so that two of them give the half-space: delta/F = 2
-/// (delta/F)_2L - (delta/F)_L.
+/// C8, bonded and turned: T = 16/3 G a^3 theta; a finite block errs (a/L)^3 only. C9, pressed without
+/// friction: F = 2 E* a delta; a finite block of width and height L errs c a/L, so that two of them give the
+/// half-space: delta/F = 2 (delta/F)_2L - (delta/F)_L.
 ///
-/// The tractions are infinite at the edge. Towards it edges halve one by one, down to `finest`; what is left of T is
-/// proportional to that, so its limit is 2 T_fine - T_coarse. In indentation the ratio of the edges, which stays 2,
-/// shows at order 1.
+/// The tractions are infinite at the edge. Towards it edges halve one by one, down to `finest`; what is left
+/// of T is proportional to that, so its limit is 2 T_fine - T_coarse. In indentation the ratio of the edges,
+/// which stays 2, shows at order 1.
 #include "outlines.hpp"
 #include "solids.hpp"
 
@@ -45,8 +46,8 @@ double radius(const std::array<double, 3> &X)
   return std::hypot(X[0], X[1]);
 }
 
-/// A disc of `around` cells about the axis, a multiple of 8; cells in lexicographic order of vertices. All but the
-/// inner square is polar.
+/// A disc of `around` cells about the axis, a multiple of 8; cells in lexicographic order of vertices. All
+/// but the inner square is polar.
 struct Plane {
   std::vector<std::array<double, 2>> vertex;
   std::vector<std::array<int, 4>> cell;
@@ -117,11 +118,12 @@ void place_middles(const std::array<int, 8> &c, SerialMesh &mesh)
   place_middle({c.begin(), c.end()}, mesh);
 }
 
-/// A cylinder of radius and height L below z = 0. The upper face within a is the upper plate's; planes of symmetry are
-/// held if `symmetric`.
+/// A cylinder of radius and height L below z = 0. The upper face within a is the upper plate's; planes of
+/// symmetry are held if `symmetric`.
 SerialMesh punched(double L, double finest, int around, bool symmetric)
 {
-  constexpr int face[6][4] = {{0, 2, 4, 6}, {1, 3, 5, 7}, {0, 1, 4, 5}, {2, 3, 6, 7}, {0, 1, 2, 3}, {4, 5, 6, 7}};
+  constexpr int face[6][4] = {{0, 2, 4, 6}, {1, 3, 5, 7}, {0, 1, 4, 5},
+                              {2, 3, 6, 7}, {0, 1, 2, 3}, {4, 5, 6, 7}};
   const Plane plane(L, finest, around);
   const std::vector<double> z = doubling(L, finest);
   const int stride = static_cast<int>(plane.vertex.size()), layers = static_cast<int>(z.size()) - 1;
@@ -152,7 +154,8 @@ SerialMesh punched(double L, double finest, int around, bool symmetric)
   return mesh;
 }
 
-Measurement pressed_or_turned(int order, double L, double finest, double depth, double angle, double bulk_over_shear)
+Measurement pressed_or_turned(int order, double L, double finest, double depth, double angle,
+                              double bulk_over_shear)
 {
   Scene scene = solid_cylinder(L, L, neo_hookean(G, bulk_over_shear), order, 1);
   scene.schedule = schedule_from_twists({1}, {depth}, {angle});

@@ -1,4 +1,5 @@
-/// Two gels in space: the rheometer's steady states against the axisymmetric model, rigid co-rotation, balance.
+/// Two gels in space: the rheometer's steady states against the axisymmetric model, rigid co-rotation,
+/// balance.
 #include "probe.hpp"
 
 #include <cstdio>
@@ -22,8 +23,9 @@ Scene steady_scene(Model model, int order, int elements)
 
 } // namespace
 
-/// W3: on the same radii and heights the solid's N and T differ by what the circle's polygon (order 1) or parabolas
-/// (order 2) make of it, which falls at the elements' order or better. Newton takes at most 12 iterations.
+/// W3: on the same radii and heights the solid's N and T differ by what the circle's polygon (order 1) or
+/// parabolas (order 2) make of it, which falls at the elements' order or better. Newton takes at most 12
+/// iterations.
 TEST(solid_rheometer, TendsToTheAxisymmetricModel)
 {
   for (const auto &[order, coarse, fine] : {std::array{1, 4, 6}, std::array{2, 2, 3}}) {
@@ -37,14 +39,15 @@ TEST(solid_rheometer, TendsToTheAxisymmetricModel)
       const Measurement &a = one.rows.back().measurement, &b = two.rows.back().measurement;
       difference[level][0] = std::abs(b.normal_force / a.normal_force - 1);
       difference[level][1] = std::abs(b.torque / a.torque - 1);
-      std::printf("order %d, %d elements: N %.3f N (axisymmetric %.3f), T %.4f N mm (%.4f)\n", order, elements,
-                  b.normal_force, a.normal_force, b.torque, a.torque);
+      std::printf("order %d, %d elements: N %.3f N (axisymmetric %.3f), T %.4f N mm (%.4f)\n", order,
+                  elements, b.normal_force, a.normal_force, b.torque, a.torque);
       EXPECT_LT(std::abs(b.force_mismatch()), 1e-6 * b.normal_force);
       EXPECT_LT(std::abs(b.torque_mismatch()), 0.02 * b.torque); // gap times traction on curved facets
       for (const HistoryRow &row : two.rows) EXPECT_LE(row.report.newton_iterations, 12);
     }
     const double expected = std::pow(static_cast<double>(coarse) / fine, order) * 1.1;
-    for (const int k : {0, 1}) EXPECT_LT(difference[1][k], expected * difference[0][k]) << order << (k ? " T" : " N");
+    for (const int k : {0, 1})
+      EXPECT_LT(difference[1][k], expected * difference[0][k]) << order << (k ? " T" : " N");
     EXPECT_LT(difference[1][0], order == 1 ? 0.03 : 2e-3);
   }
 }

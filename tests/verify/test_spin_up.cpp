@@ -1,14 +1,15 @@
-/// C11, spin-up of a viscous contact between two elastic discs on lubricated plates: under uniform pressure the law
-/// mu = b1 v gives a traction proportional to r, which is that of pure torsion, so the scene is exactly a damper c in
-/// series with two torsional springs:
+/// C11, spin-up of a viscous contact between two elastic discs on lubricated plates: under uniform pressure
+/// the law mu = b1 v gives a traction proportional to r, which is that of pure torsion, so the scene is
+/// exactly a damper c in series with two torsional springs:
 ///
-///     T = k theta = c (omega - dtheta/dt),   c = p b1 pi a^4/2,   1/k = sum over the gels of h / (G_s pi a^4/2)
-///     T(t) = c omega (1 - exp(-k t/c));      backward Euler: T_n = (c omega + c T_(n-1)/(k dt)) / (1 + c/(k dt))
+///     T = k theta = c (omega - dtheta/dt),   c = p b1 pi a^4/2,   1/k = sum over the gels of h / (G_s pi
+///     a^4/2) T(t) = c omega (1 - exp(-k t/c));      backward Euler: T_n = (c omega + c T_(n-1)/(k dt)) / (1
+///     + c/(k dt))
 ///
-/// with the current radius a and heights h and the shear stiffness G_s on top of the uniform compression, all from
-/// scalar equations (uniform_compression.hpp). The twist is 2e-6, so that what it does in second order is round-off.
-/// In space the nodal tractions carry the torque of r^2 but not its distribution over one element: an error that falls
-/// with the mesh width and vanishes in the steady state of order 2.
+/// with the current radius a and heights h and the shear stiffness G_s on top of the uniform compression, all
+/// from scalar equations (uniform_compression.hpp). The twist is 2e-6, so that what it does in second order
+/// is round-off. In space the nodal tractions carry the torque of r^2 but not its distribution over one
+/// element: an error that falls with the mesh width and vanishes in the steady state of order 2.
 #include "uniform_compression.hpp"
 
 #include <algorithm>
@@ -136,8 +137,8 @@ double largest_fall(const std::vector<HistoryRow> &rows, int phase)
 
 } // namespace
 
-/// T rises to c omega without a peak, however much shorter than the first step its rise is: from 400 times shorter
-/// to three times longer. What may be left is a tenth of the step tolerance.
+/// T rises to c omega without a peak, however much shorter than the first step its rise is: from 400 times
+/// shorter to three times longer. What may be left is a tenth of the step tolerance.
 TEST(spin_up, HasNoPeakThatAFinerStepRemoves)
 {
   for (const double strength : {1e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3}) {

@@ -11,15 +11,16 @@ Scene scene_of(int order, ScheduleKind kind)
 {
   Scene scene = paper_scene(6, order);
   scene.friction = {{0.02, 8e-3}, {0, 1}};
-  scene.schedule = schedule_from_rates({27, 4000, 4100, 8000}, {0.57, 0.57, 0.71, 0.71}, {0.05, 0.05, 0.4, 0.4});
+  scene.schedule =
+      schedule_from_rates({27, 4000, 4100, 8000}, {0.57, 0.57, 0.71, 0.71}, {0.05, 0.05, 0.4, 0.4});
   scene.schedule_kind = kind;
   return scene;
 }
 
 } // namespace
 
-/// The transient holds for a thousand relaxation times; what is left of it, and of the error of its steps, is below
-/// 1e-6 of N (and of N R for the torque).
+/// The transient holds for a thousand relaxation times; what is left of it, and of the error of its steps, is
+/// below 1e-6 of N (and of N R for the torque).
 TEST(steady, IsWhatTheTransientTendsTo)
 {
   for (int order : {1, 2}) {
@@ -41,8 +42,8 @@ TEST(steady, IsWhatTheTransientTendsTo)
   }
 }
 
-/// Friction that vanishes at rest with an infinite slope: pressed at rest the gels are those without friction; turned
-/// they are what the transient tends to.
+/// Friction that vanishes at rest with an infinite slope: pressed at rest the gels are those without
+/// friction; turned they are what the transient tends to.
 TEST(steady, PressesAtRestAndThenTurnsWhateverTheExponent)
 {
   for (const double pressure_exponent : {1.0, 0.6})
@@ -78,7 +79,8 @@ TEST(steady, ForgetsTheWayThere)
   Problem there, back;
   Recorder one(""), two("");
   run(scene, there, one);
-  scene.schedule = schedule_from_rates({27, 4000, 4100, 8000}, {0.71, 0.71, 0.57, 0.57}, {0.4, 0.4, 0.05, 0.05});
+  scene.schedule =
+      schedule_from_rates({27, 4000, 4100, 8000}, {0.71, 0.71, 0.57, 0.57}, {0.4, 0.4, 0.05, 0.05});
   run(scene, back, two);
   for (int k : {1, 3}) {
     const Measurement &a = one.phases[k].measurement, &b = two.phases[4 - k].measurement;

@@ -1,6 +1,6 @@
-/// Friction that is not smooth at rest, through the whole program: tau = b v^m p^a on the paper's rheometer, from rest
-/// through three rates of rotation. Once the gels' twist has settled v = omega r, so each slipping node must carry the
-/// law's Cauchy traction and, N being the same, T must grow with omega^m.
+/// Friction that is not smooth at rest, through the whole program: tau = b v^m p^a on the paper's rheometer,
+/// from rest through three rates of rotation. Once the gels' twist has settled v = omega r, so each slipping
+/// node must carry the law's Cauchy traction and, N being the same, T must grow with omega^m.
 #include "scenes.hpp"
 
 #include <algorithm>
@@ -47,7 +47,8 @@ void check(const Case &c, int order)
   EXPECT_LE(most, 12);
   ::testing::Test::RecordProperty("most_order_" + std::to_string(order), static_cast<int>(most));
   ::testing::Test::RecordProperty("all_order_" + std::to_string(order), static_cast<int>(all));
-  ::testing::Test::RecordProperty("steps_order_" + std::to_string(order), static_cast<int>(recorder.rows.size()));
+  ::testing::Test::RecordProperty("steps_order_" + std::to_string(order),
+                                  static_cast<int>(recorder.rows.size()));
 }
 
 } // namespace

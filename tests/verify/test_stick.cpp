@@ -1,13 +1,13 @@
-/// Coulomb friction mu = b0 under uniform pressure: two discs on lubricated plates, pressed and twisted. Torsion of a
-/// cylinder gives a traction G_s psi r, which reaches b0 p first at the rim, at the twist
+/// Coulomb friction mu = b0 under uniform pressure: two discs on lubricated plates, pressed and twisted.
+/// Torsion of a cylinder gives a traction G_s psi r, which reaches b0 p first at the rim, at the twist
 ///
 ///     theta_slip = b0 p h / (G_s a)           (a, h: current radius and total height)
 ///
-/// Below it everything sticks: T = k theta with k = G_s pi a^4/(2 h), no sliding and no creep however long the hold.
-/// The mesh errs in T only because the node on the axis holds no torque, a share of (facet on the axis)/a to the
-/// fourth. Far above it everything slides: T = 2/3 pi a^3 b0 p. Between, a ring slides that grows from the rim. The
-/// numbers are those of scalar equations (uniform_compression.hpp); b0 is so small that the twist's second order, about
-/// b0^2, is below the tolerances.
+/// Below it everything sticks: T = k theta with k = G_s pi a^4/(2 h), no sliding and no creep however long
+/// the hold. The mesh errs in T only because the node on the axis holds no torque, a share of (facet on the
+/// axis)/a to the fourth. Far above it everything slides: T = 2/3 pi a^3 b0 p. Between, a ring slides that
+/// grows from the rim. The numbers are those of scalar equations (uniform_compression.hpp); b0 is so small
+/// that the twist's second order, about b0^2, is below the tolerances.
 #include "uniform_compression.hpp"
 
 #include <algorithm>
@@ -26,7 +26,10 @@ struct Twisted {
   UniaxialState state;
   double radius, pressure, stiffness, slip_twist, full_torque;
 
-  const Measurement &at_end_of_phase(std::size_t k) const { return recorder.phases[k].measurement; } ///< from 1
+  const Measurement &at_end_of_phase(std::size_t k) const
+  {
+    return recorder.phases[k].measurement;
+  } ///< from 1
 };
 
 /// Compressed in phase 1, turned by `twist` times theta_slip in phase 2 (4 s), held to `end` in phase 3.
@@ -39,7 +42,8 @@ void twist_and_hold(Twisted &is, int order, double twist, double end, int elemen
   scene.mesh.bottom_elements_radial = elements + elements / 2;
   scene.friction = {{b0}, {0}};
   const UniaxialState state = uniaxial_state(scene.top.material.equilibrium, 1 - compression);
-  const double a = scene.top.radius * state.lateral, h = (scene.top.height + scene.bottom.height) * state.axial;
+  const double a = scene.top.radius * state.lateral,
+               h = (scene.top.height + scene.bottom.height) * state.axial;
   is.state = state;
   is.radius = a;
   is.pressure = state.pressure;

@@ -1,12 +1,12 @@
-/// High friction, mu = 0.5 at any speed, on the paper's rheometer with elastic gels: pressed while they stick, turned
-/// from rest through partial slip to full slip, and back to full slip the other way, in steps that the program chooses.
-/// In full slip each node carries
-/// mu times its pressure against its sliding velocity, hence
+/// High friction, mu = 0.5 at any speed, on the paper's rheometer with elastic gels: pressed while they
+/// stick, turned from rest through partial slip to full slip, and back to full slip the other way, in steps
+/// that the program chooses. In full slip each node carries mu times its pressure against its sliding
+/// velocity, hence
 ///
 ///     T = mu sum_a A_a p_a r_a cos(angle of the sliding velocity from the circle)
 ///
-/// with the nodes' current areas, exactly for the discrete operator. Elastic gels forget the way: full slip backwards
-/// has the same torque with the other sign.
+/// with the nodes' current areas, exactly for the discrete operator. Elastic gels forget the way: full slip
+/// backwards has the same torque with the other sign.
 #include "scenes.hpp"
 #include "solver_options.hpp"
 
@@ -57,7 +57,8 @@ SlipTorque slip_torque(const Problem &problem, const std::vector<ProfileRow> &pr
   return sum;
 }
 
-/// Forth and back T is monotone up to full slip, where it overshoots a little (0.06 % at order 2, 0.35 % at order 1).
+/// Forth and back T is monotone up to full slip, where it overshoots a little (0.06 % at order 2, 0.35 % at
+/// order 1).
 void check_branches(const std::vector<HistoryRow> &rows, double full)
 {
   double before = 0;

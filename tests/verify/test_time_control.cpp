@@ -1,7 +1,7 @@
-/// Euler's rule with its default tolerance keeps what it promises: N(t) within 0.3 % of its largest value and N at the
-/// ends of phases within 0.1 % of a run with steps so short that their own error is a tenth of that; and the error
-/// falls as the root of the tolerance. Fails without N in the estimate, with a quarter of it, and with first steps five
-/// times as long.
+/// Euler's rule with its default tolerance keeps what it promises: N(t) within 0.3 % of its largest value and
+/// N at the ends of phases within 0.1 % of a run with steps so short that their own error is a tenth of that;
+/// and the error falls as the root of the tolerance. Fails without N in the estimate, with a quarter of it,
+/// and with first steps five times as long.
 #include "probe.hpp"
 #include "solver_options.hpp"
 
@@ -25,8 +25,8 @@ std::vector<HistoryRow> rows_with(const OptionList &given)
 
 double force_at(const std::vector<HistoryRow> &rows, double time)
 {
-  const auto after =
-      std::lower_bound(rows.begin(), rows.end(), time, [](const HistoryRow &row, double t) { return row.time < t; });
+  const auto after = std::lower_bound(rows.begin(), rows.end(), time,
+                                      [](const HistoryRow &row, double t) { return row.time < t; });
   if (after == rows.begin()) return after->measurement.normal_force;
   const HistoryRow &a = *(after - 1), &b = *after;
   const double s = (time - a.time) / (b.time - a.time);
@@ -57,7 +57,8 @@ Errors errors(const std::vector<HistoryRow> &rows, const std::vector<HistoryRow>
 TEST(time_control, EulersStepsKeepTheForceWithinItsBounds)
 {
   const auto reference = rows_with({{"-ts_atol", "1e-5"}, {"-ts_dt", "2e-3"}});
-  const Errors usual = errors(rows_with({}), reference), fine = errors(rows_with({{"-ts_atol", "1e-4"}}), reference);
+  const Errors usual = errors(rows_with({}), reference),
+               fine = errors(rows_with({{"-ts_atol", "1e-4"}}), reference);
   EXPECT_LE(usual.anywhere, 3e-3);
   EXPECT_LE(usual.at_ends, 1e-3);
   EXPECT_GT(usual.anywhere / fine.anywhere, 2);

@@ -1,6 +1,6 @@
-/// W8, order in time of both rules: N(t) and T(t) of the paper scene under step halving, through loading, early hold
-/// and rotation. The limit at each time is extrapolated from the last run and one with half its step: a single fine run
-/// would flatter the order. Each phase ends on a common multiple of the steps.
+/// W8, order in time of both rules: N(t) and T(t) of the paper scene under step halving, through loading,
+/// early hold and rotation. The limit at each time is extrapolated from the last run and one with half its
+/// step: a single fine run would flatter the order. Each phase ends on a common multiple of the steps.
 #include "scenes.hpp"
 #include "solver_options.hpp"
 
@@ -59,19 +59,21 @@ void expect_order(int order, const PolynomialFriction<double> &friction, double 
   Scene scene = paper_scene(4, 1);
   scene.friction = friction;
   scene.time.rule = order == 1 ? TimeRule::exponential_euler : TimeRule::sdirk2;
-  scene.schedule = schedule_from_rates({phase_ends[1], phase_ends[2], phase_ends[3]}, {0.79, 0.79, 0.79}, {0, 0, rate});
+  scene.schedule =
+      schedule_from_rates({phase_ends[1], phase_ends[2], phase_ends[3]}, {0.79, 0.79, 0.79}, {0, 0, rate});
   constexpr int halvings = 3;
   std::vector<Curve> curves;
   for (int k = 0; k <= halvings + 1; ++k) curves.push_back(curve(scene, std::ldexp(coarsest, -k)));
   Curve limit = curves.back();
   for (std::size_t n = 0; n < limit.size(); ++n)
-    for (std::size_t i = 0; i < 2; ++i) limit[n][i] += (limit[n][i] - curves[halvings][n][i]) / ((1 << order) - 1);
+    for (std::size_t i = 0; i < 2; ++i)
+      limit[n][i] += (limit[n][i] - curves[halvings][n][i]) / ((1 << order) - 1);
   for (std::size_t phase = 0; phase < 3; ++phase) {
     std::array<double, 2> before{};
     for (int k = 0; k <= halvings; ++k) {
       const auto now = error(curves[static_cast<std::size_t>(k)], limit, phase);
-      std::printf("phase %zu, step %.4f s: errors of N %.2e, T %.2e\n", phase + 1, std::ldexp(coarsest, -k), now[0],
-                  now[1]);
+      std::printf("phase %zu, step %.4f s: errors of N %.2e, T %.2e\n", phase + 1, std::ldexp(coarsest, -k),
+                  now[0], now[1]);
       for (std::size_t i = 0; i < (phase == 2 ? 2u : 1u); ++i) {
         if (k > 0) {
           EXPECT_GE(std::log2(before[i] / now[i]), order - 0.1) << (i ? "T" : "N") << ", phase " << phase + 1;

@@ -1,12 +1,14 @@
-/// Torque of a bonded viscoelastic cylinder that is turned a little by an angle theta and then held, B5. Simple shear
-/// of every point, no volume change, hence for any history of the small twist per length theta/h
+/// Torque of a bonded viscoelastic cylinder that is turned a little by an angle theta and then held, B5.
+/// Simple shear of every point, no volume change, hence for any history of the small twist per length theta/h
 ///
-///   T(t) = (pi/2) a^4/h [G theta + G_v s],   s' = theta' - s/tau,   tau = eta_D/G_v                 (Maxwell 1867)
+///   T(t) = (pi/2) a^4/h [G theta + G_v s],   s' = theta' - s/tau,   tau = eta_D/G_v                 (Maxwell
+///   1867)
 ///
-/// so that T(t) = (pi/2) a^4 (theta/h) (G + G_v exp(-t/tau)) after a jump at t = 0. Backward Euler in the elastic
-/// strain has its own exact solution, s_(n+1) = (s_n + theta_(n+1) - theta_n)/(1 + dt/tau): the program is held against
-/// it to the floor that finite strain (the twist squared) and the round-off of the bulk modulus leave. SDIRK2 is linear
-/// there too: two such steps, the second from where the first arrives when carried on.
+/// so that T(t) = (pi/2) a^4 (theta/h) (G + G_v exp(-t/tau)) after a jump at t = 0. Backward Euler in the
+/// elastic strain has its own exact solution, s_(n+1) = (s_n + theta_(n+1) - theta_n)/(1 + dt/tau): the
+/// program is held against it to the floor that finite strain (the twist squared) and the round-off of the
+/// bulk modulus leave. SDIRK2 is linear there too: two such steps, the second from where the first arrives
+/// when carried on.
 #include "bulk_scenes.hpp"
 #include "tribogel/math/sdirk2.hpp"
 
@@ -55,8 +57,9 @@ TEST(torque_relaxation, FollowsBackwardEulersOwnRecursion)
     for (std::size_t n = 1; n < rows.size(); ++n) {
       const double dt = rows[n].time - rows[n - 1].time;
       s = (s + rows[n].rotation - rows[n - 1].rotation) / (1 + dt / relaxation);
-      worst = std::max(worst,
-                       std::abs(rows[n].measurement.torque / (stiffness * (G * rows[n].rotation + G_branch * s)) - 1));
+      worst = std::max(
+          worst,
+          std::abs(rows[n].measurement.torque / (stiffness * (G * rows[n].rotation + G_branch * s)) - 1));
     }
     std::printf("order %d: largest deviation from the recursion %.2e\n", order, worst);
     EXPECT_LT(worst, 1e-9);
@@ -75,8 +78,9 @@ TEST(torque_relaxation, FollowsSdirk2sOwnRecursion)
       flown += sdirk2::reach * length * (middle - flown) / (relaxation + length);
       flown += length * (rows[n].rotation - flown) / (relaxation + length);
       const double s = rows[n].rotation - flown;
-      worst = std::max(worst,
-                       std::abs(rows[n].measurement.torque / (stiffness * (G * rows[n].rotation + G_branch * s)) - 1));
+      worst = std::max(
+          worst,
+          std::abs(rows[n].measurement.torque / (stiffness * (G * rows[n].rotation + G_branch * s)) - 1));
     }
     std::printf("order %d: largest deviation from the recursion %.2e\n", order, worst);
     EXPECT_LT(worst, 1e-9);
@@ -113,7 +117,8 @@ TEST(torque_relaxation, IsSecondOrderAccurateInTimeWithSdirk2)
   expect_order_in_time(TimeRule::sdirk2, 4, 0.2);
 }
 
-/// A twist within a step far below the relaxation time is a jump; what follows, in steps as small, is the exponential.
+/// A twist within a step far below the relaxation time is a jump; what follows, in steps as small, is the
+/// exponential.
 TEST(torque_relaxation, OfAJumpIsExponential)
 {
   constexpr double step = 1.0 / 256;

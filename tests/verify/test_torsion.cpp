@@ -1,13 +1,14 @@
 /// Torsion of an incompressible neo-Hookean cylinder, B2: universal solution r = R/sqrt(lambda), phi = psi Z,
 /// z = lambda Z (Rivlin 1949; psi is the twist per reference length):
 ///
-///   T = (pi/2) G psi a^4/lambda,   N = (pi/4) G psi^2 a^4/lambda^2 - pi a^2 G (lambda - lambda^-2)  (compression > 0).
+///   T = (pi/2) G psi a^4/lambda,   N = (pi/4) G psi^2 a^4/lambda^2 - pi a^2 G (lambda - lambda^-2)
+///   (compression > 0).
 ///
-/// At lambda = 1 no point moves radially: exact with bonded ends. With lambda != 1 the plates must let the gel slide.
-/// A finite bulk modulus errs O(G/K). The mesh does not err at all: u_R = 0 (or linear), phi and u_Z linear lie in the
-/// element space, T and N are the work of the exact deviatoric stress (polynomials that the Gauss rules do exactly) and
-/// of a pressure that is in equilibrium with it. So on any mesh the error is c G/K, and falls tenfold when K rises
-/// tenfold.
+/// At lambda = 1 no point moves radially: exact with bonded ends. With lambda != 1 the plates must let the
+/// gel slide. A finite bulk modulus errs O(G/K). The mesh does not err at all: u_R = 0 (or linear), phi and
+/// u_Z linear lie in the element space, T and N are the work of the exact deviatoric stress (polynomials that
+/// the Gauss rules do exactly) and of a pressure that is in equilibrium with it. So on any mesh the error is
+/// c G/K, and falls tenfold when K rises tenfold.
 #include "bulk_scenes.hpp"
 
 #include <numbers>
@@ -26,8 +27,9 @@ struct Reaction {
 
 Reaction exact(double lambda)
 {
-  return {pi / 2 * G * psi * std::pow(a, 4) / lambda, pi / 4 * G * psi * psi * std::pow(a, 4) / (lambda * lambda) -
-                                                          pi * a * a * G * (lambda - 1 / (lambda * lambda))};
+  return {pi / 2 * G * psi * std::pow(a, 4) / lambda,
+          pi / 4 * G * psi * psi * std::pow(a, 4) / (lambda * lambda) -
+              pi * a * a * G * (lambda - 1 / (lambda * lambda))};
 }
 
 /// Relative errors of T and N after stretching by lambda (if not 1) and turning by psi times the height.
@@ -45,7 +47,8 @@ Reaction errors(int order, int elements, double bulk_over_shear, double lambda)
   Recorder recorder("");
   run(scene, problem, recorder);
   const Measurement &m = recorder.rows.back().measurement;
-  const Reaction reference = exact(lambda), error{m.torque / reference.T - 1, m.normal_force / reference.N - 1};
+  const Reaction reference = exact(lambda),
+                 error{m.torque / reference.T - 1, m.normal_force / reference.N - 1};
   std::printf("order %d elements %2d K/G %.0e lambda %.2f: errors of T %.3e, N %.3e\n", order, elements,
               bulk_over_shear, lambda, error.T, error.N);
   return error;

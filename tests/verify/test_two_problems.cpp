@@ -1,5 +1,5 @@
-/// A Problem holds all of its state: two different ones in one process, one run inside a step of the other, give the
-/// numbers of separate runs, bit for bit.
+/// A Problem holds all of its state: two different ones in one process, one run inside a step of the other,
+/// give the numbers of separate runs, bit for bit.
 #include "probe.hpp"
 
 namespace tribogel::test

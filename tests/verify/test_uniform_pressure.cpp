@@ -1,12 +1,13 @@
-/// C4, torque of uniform pressure: equal discs on lubricated plates press evenly whatever nu is, and in steady rotation
-/// v = omega r exactly, so with the current radius R
+/// C4, torque of uniform pressure: equal discs on lubricated plates press evenly whatever nu is, and in
+/// steady rotation v = omega r exactly, so with the current radius R
 ///
 ///     T/(N R) = sum_m b_m (omega R)^m 2/(m+3),    mu = sum_m b_m v^m
 ///
-/// (2 pi int mu r^2 dr over R times pi R^2). The undeformed radius is chosen so that R is the paper's 10 mm, and the
-/// laws are cases 1 to 3 of its Table 2. The program sums D_a r_a mu(omega r_a) over the nodes, the integral of the
-/// nodal interpolant of r mu: order 1 is exact for m = 0 and second order for m = 1, 2; order 2 is exact for m = 0, 1.
-/// With exponents below 1 the interpolant of r^(m+1) errs at the axis too; with a pressure exponent
+/// (2 pi int mu r^2 dr over R times pi R^2). The undeformed radius is chosen so that R is the paper's 10 mm,
+/// and the laws are cases 1 to 3 of its Table 2. The program sums D_a r_a mu(omega r_a) over the nodes, the
+/// integral of the nodal interpolant of r mu: order 1 is exact for m = 0 and second order for m = 1, 2; order
+/// 2 is exact for m = 0, 1. With exponents below 1 the interpolant of r^(m+1) errs at the axis too; with a
+/// pressure exponent
 ///
 ///     T = 2 pi p^a sum_m b_m omega^m R^(m+3)/(m+3),
 ///
@@ -30,7 +31,8 @@ const double table[3][3] = {
 double closed_form(const std::vector<double> &b, double omega)
 {
   double sum = 0;
-  for (std::size_t m = 0; m < b.size(); ++m) sum += b[m] * std::pow(omega * R, exponents[m]) * 2 / (exponents[m] + 3);
+  for (std::size_t m = 0; m < b.size(); ++m)
+    sum += b[m] * std::pow(omega * R, exponents[m]) * 2 / (exponents[m] + 3);
   return sum;
 }
 
@@ -44,8 +46,8 @@ std::vector<double> measured(const PolynomialFriction<double> &law, int order, i
   scene.mesh.elements_radial = elements;
   scene.friction = law;
   const double approach = compression * (scene.top.height + scene.bottom.height);
-  scene.schedule =
-      schedule_from_rates({2.5, 10, 17.5, 25}, std::vector<double>(4, approach), {0, rates[0], rates[1], rates[2]});
+  scene.schedule = schedule_from_rates({2.5, 10, 17.5, 25}, std::vector<double>(4, approach),
+                                       {0, rates[0], rates[1], rates[2]});
   Problem problem;
   Recorder recorder("");
   run(scene, problem, recorder);
@@ -71,7 +73,8 @@ std::vector<double> measured(const std::vector<double> &b, int order, int elemen
 TEST(uniform_pressure, ClosedFormGivesTheTable)
 {
   for (int k = 0; k < 3; ++k)
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(closed_form(cases[k], rates[i]) / table[k][i], 1, 3e-4); // its four digits
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(closed_form(cases[k], rates[i]) / table[k][i], 1, 3e-4); // its four digits
 }
 
 TEST(uniform_pressure, Order1IsSecondOrderInTheMeshWidth)

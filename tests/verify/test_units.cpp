@@ -1,6 +1,7 @@
-/// W6, change of units through the whole program: lengths, moduli and times are scaled by powers of two, friction
-/// coefficients and viscosities accordingly. Newton's method must take the same path and N, T scale as force and
-/// moment; a number with a dimension hidden anywhere (a tolerance, a step size, a regularisation) breaks it.
+/// W6, change of units through the whole program: lengths, moduli and times are scaled by powers of two,
+/// friction coefficients and viscosities accordingly. Newton's method must take the same path and N, T scale
+/// as force and moment; a number with a dimension hidden anywhere (a tolerance, a step size, a
+/// regularisation) breaks it.
 #include "scenes.hpp"
 #include "solver_options.hpp"
 
@@ -88,9 +89,10 @@ void expect_same(const PolynomialFriction<double> &friction, const Units &unit, 
     const HistoryRow &a = old_rows.rows[k], &b = new_rows.rows[k];
     EXPECT_NEAR(b.time, a.time * unit.time, tolerance * b.time);
     force = std::max(force, std::abs(b.measurement.normal_force / unit.force() - a.measurement.normal_force));
-    torque = std::max(torque, std::abs(b.measurement.torque / (unit.force() * unit.length) - a.measurement.torque));
-    iterations =
-        std::max(iterations, std::abs(static_cast<int>(a.report.newton_iterations - b.report.newton_iterations)));
+    torque = std::max(torque,
+                      std::abs(b.measurement.torque / (unit.force() * unit.length) - a.measurement.torque));
+    iterations = std::max(
+        iterations, std::abs(static_cast<int>(a.report.newton_iterations - b.report.newton_iterations)));
   }
   EXPECT_LE(iterations, 1);
   EXPECT_LE(force, tolerance * end.normal_force);

@@ -1,6 +1,6 @@
-/// Side walls at the plates and on the other gel. For elastic gels without slip the work of the plate is the stored
-/// energy, so N = dE/d(approach) exactly: it holds only if the walls' forces do no work against their constraints and
-/// are counted in N.
+/// Side walls at the plates and on the other gel. For elastic gels without slip the work of the plate is the
+/// stored energy, so N = dE/d(approach) exactly: it holds only if the walls' forces do no work against their
+/// constraints and are counted in N.
 #include "solver_options.hpp"
 #include "wall_scenes.hpp"
 

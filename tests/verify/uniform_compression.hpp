@@ -15,12 +15,13 @@ struct UniaxialState {
   double axial, lateral; ///< stretches
   double pressure;       ///< Cauchy, positive in compression [MPa]
 
-  /// Ratio of shear stress to shear angle for a small shear d x_theta = gamma d z on top of this state: the principal
-  /// axes of b turn by gamma axial^2/(axial^2 - lateral^2) and take the stress along [MPa].
+  /// Ratio of shear stress to shear angle for a small shear d x_theta = gamma d z on top of this state: the
+  /// principal axes of b turn by gamma axial^2/(axial^2 - lateral^2) and take the stress along [MPa].
   double shear_stiffness() const { return -pressure * axial * axial / (axial * axial - lateral * lateral); }
 };
 
-/// Solves tau_lateral = 0 for the lateral stretch; Ogden's law written out here on its own, the paper's (3.6), (3.7).
+/// Solves tau_lateral = 0 for the lateral stretch; Ogden's law written out here on its own, the paper's
+/// (3.6), (3.7).
 inline UniaxialState uniaxial_state(const Ogden<double> &law, double axial)
 {
   const auto kirchhoff = [&](long double lateral, bool along_axis) {

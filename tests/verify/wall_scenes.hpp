@@ -22,7 +22,8 @@ inline Scene mushroom(int order)
   scene.bottom.material.equilibrium.bulk_modulus *= 10;
   scene.friction = {{20}, {0}};
   scene.mesh.grading = 3;
-  scene.mesh.bottom_elements_radial = scene.mesh.elements_radial + 1; // nodes that do not meet, as in test_jacobian
+  scene.mesh.bottom_elements_radial =
+      scene.mesh.elements_radial + 1; // nodes that do not meet, as in test_jacobian
   scene.schedule = around(2.2, 0.01);
   return scene;
 }

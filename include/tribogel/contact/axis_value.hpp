@@ -1,13 +1,15 @@
-/// What stands on the axis of a surface of order 2. Its node there takes no part in the contact: int N R dR = 0 where
-/// the midside node lies in the middle, so it carries no multiplier, no force reaches it, and the two surfaces' nodes
-/// there pass through one another by a length of third order in the facet's. By symmetry dp/dr = dz/dr = 0 there, and
-/// the two nodes next to it, which do take part, determine the parabola p_0 + p_2 r^2 and its like for z.
+/// What stands on the axis of a surface of order 2. Its node there takes no part in the contact: int N R dR =
+/// 0 where the midside node lies in the middle, so it carries no multiplier, no force reaches it, and the two
+/// surfaces' nodes there pass through one another by a length of third order in the facet's. By symmetry
+/// dp/dr = dz/dr = 0 there, and the two nodes next to it, which do take part, determine the parabola p_0 +
+/// p_2 r^2 and its like for z.
 ///
 /// A height is a node's own. A pressure is a nodal force over a nodal area, thus a mean,
 ///
 ///     p_a = int N_a p r ds / int N_a r ds = p_0 + p_2 q_a,    q_a = int N_a r^2 r ds / int N_a r ds,
 ///
-/// over the facets around the node. So both are exact for parabolas, and of fourth order in the facet's length.
+/// over the facets around the node. So both are exact for parabolas, and of fourth order in the facet's
+/// length.
 #pragma once
 
 #include "tribogel/contact/axisymmetric_area.hpp"
@@ -23,8 +25,8 @@ inline double even_intercept(const std::array<double, 2> &q, const std::array<do
   return (f[0] * q[1] - f[1] * q[0]) / (q[1] - q[0]);
 }
 
-/// Height of the curve on the axis [mm]. `x`: current places of its nodes from the axis, where the first one is,
-/// outwards; of order 2.
+/// Height of the curve on the axis [mm]. `x`: current places of its nodes from the axis, where the first one
+/// is, outwards; of order 2.
 inline double height_on_axis(std::span<const PlanePoint<double>> x)
 {
   return even_intercept({x[1].r * x[1].r, x[2].r * x[2].r}, {x[1].z, x[2].z});

@@ -1,4 +1,5 @@
-/// The current area that belongs to a slave node, int N_a 2 pi r ds: a nodal force over it is a Cauchy traction.
+/// The current area that belongs to a slave node, int N_a 2 pi r ds: a nodal force over it is a Cauchy
+/// traction.
 #pragma once
 
 #include "tribogel/contact/line_facet.hpp"
@@ -23,8 +24,8 @@ template <int nodes, class T> T facet_area(const FacetPoints<nodes, T> &points, 
   return area;
 }
 
-/// x are the positions of all nodes; `tied` is the crease node whose share of the first facet is a's too, -1: none
-/// [mm^2].
+/// x are the positions of all nodes; `tied` is the crease node whose share of the first facet is a's too, -1:
+/// none [mm^2].
 template <class T> T nodal_area(const LineChain &chain, int a, int tied, const std::vector<PlanePoint<T>> &x)
 {
   T area = 0;
@@ -55,7 +56,8 @@ std::vector<PlanePoint<double>> nodal_area_derivative(const LineChain &chain, in
     const D area = facet_area<nodes, D>(points, local, chain.facets[f][0] == tied);
     for (int b = 0; b < nodes; ++b) {
       const auto at = std::find(list.begin(), list.end(), chain.facets[f][b]);
-      slope[static_cast<std::size_t>(at - list.begin())] += PlanePoint<double>{area.d[2 * b], area.d[2 * b + 1]};
+      slope[static_cast<std::size_t>(at - list.begin())] +=
+          PlanePoint<double>{area.d[2 * b], area.d[2 * b + 1]};
     }
   }
   return slope;

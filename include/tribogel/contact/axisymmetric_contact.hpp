@@ -1,11 +1,12 @@
-/// The contact operator of two coaxial bodies of revolution: slave curve (lower face of the top body) on master curve
-/// (upper face of the bottom body), with twist. It holds both curves whole, so any process can evaluate any of the
-/// slave nodes:
+/// The contact operator of two coaxial bodies of revolution: slave curve (lower face of the top body) on
+/// master curve (upper face of the bottom body), with twist. It holds both curves whole, so any process can
+/// evaluate any of the slave nodes:
 ///
 ///     AxisymmetricContact contact({slave, master, parameters});
 ///     const auto pairs = contact.candidate_pairs(state, margin);
 ///     const auto report = contact.update(state, pairs, true, first, last);
-///     for (int a = first; a < last; ++a) contact.node(a, law, block);    // add block.residual, block.jacobian
+///     for (int a = first; a < last; ++a) contact.node(a, law, block);    // add block.residual,
+///     block.jacobian
 ///
 /// What the rows mean: axisymmetric_node.hpp. The derivation: THEORY, section 3.
 #pragma once
@@ -26,7 +27,8 @@ public:
 
   const ContactGeometry &reference() const { return geometry; }
 
-  /// Sorted pairs of facets for `update`; they remain sufficient while the surfaces slide by less than margin [mm].
+  /// Sorted pairs of facets for `update`; they remain sufficient while the surfaces slide by less than margin
+  /// [mm].
   std::vector<std::pair<int, int>> candidate_pairs(const ContactState<double> &state, double margin) const
   {
     const auto at = positions(geometry.slave, state.slave);
@@ -38,11 +40,16 @@ public:
   MortarReport update(const ContactState<double> &state, FacetPairs pairs, bool derivatives, int first = 0,
                       int last = -1);
 
-  /// The nodes that block.slave_nodes and block.master_nodes of node a can contain as long as `pairs` are sufficient.
+  /// The nodes that block.slave_nodes and block.master_nodes of node a can contain as long as `pairs` are
+  /// sufficient.
   NodeBlock pattern(int a, FacetPairs pairs) const
   {
-    NodeBlock block{
-        .slave_nodes = {a}, .master_nodes = {}, .slave_rows = 1, .residual = {}, .jacobian = {}, .status = {}};
+    NodeBlock block{.slave_nodes = {a},
+                    .master_nodes = {},
+                    .slave_rows = 1,
+                    .residual = {},
+                    .jacobian = {},
+                    .status = {}};
     if (!geometry.nodes[a].carries) return block;
     block.slave_nodes = slave_neighbourhood(geometry, a);
     block.slave_rows = geometry.nodes[a].tied >= 0 ? 2 : 1;
@@ -53,16 +60,16 @@ public:
     return block;
   }
 
-  /// Residual and, if `update` was asked for derivatives, Jacobian of slave node a. Without a multiplier the row is
-  /// lambda = 0.
+  /// Residual and, if `update` was asked for derivatives, Jacobian of slave node a. Without a multiplier the
+  /// row is lambda = 0.
   template <class Law>
   requires FrictionLaw<Law, Dual<10>> && FrictionLaw<Law, Dual<11>>
   void node(int a, const Law &law, NodeBlock &block) const;
 
   template <FrictionLaw<double> Law> NodeResult result(int a, const Law &law) const;
 
-  /// Force along z and torque about it on the slave: (sum D lambda_z, sum r D lambda_theta) of node a [N, N mm]. The
-  /// torque that opposes a rotation of the slave is the negative of the second.
+  /// Force along z and torque about it on the slave: (sum D lambda_z, sum r D lambda_theta) of node a [N, N
+  /// mm]. The torque that opposes a rotation of the slave is the negative of the second.
   std::pair<double, double> resultant(int a) const
   {
     const Vector3<double> force = geometry.nodes[a].weight() * now.multiplier[a];
@@ -84,7 +91,10 @@ public:
   // What both models' operators tell of the slave: a node's constants, the curve's size and that of a facet.
   const ContactGeometry::Node &constants(int a) const { return geometry.nodes[a]; }
   double slave_size() const { return geometry.slave_length; } ///< [mm]
-  double facet_size() const { return geometry.slave_length / static_cast<double>(geometry.slave.facets.size()); }
+  double facet_size() const
+  {
+    return geometry.slave_length / static_cast<double>(geometry.slave.facets.size());
+  }
 
 private:
   ContactGeometry geometry;
@@ -98,8 +108,8 @@ private:
   {
     std::vector<PlanePoint<double>> normal;
     for (int a = 0; a < geometry.slave_chain.node_count(); ++a)
-      normal.push_back(
-          nodal_normal<double>(geometry.slave_chain, a, geometry.nodes[a].on_axis, [&](int b) { return at[b]; }));
+      normal.push_back(nodal_normal<double>(geometry.slave_chain, a, geometry.nodes[a].on_axis,
+                                            [&](int b) { return at[b]; }));
     return normal;
   }
   template <class Law> NodeContact<double> contact_of(int a, const Law &law) const
@@ -122,8 +132,8 @@ private:
   void without_multiplier(int a, NodeBlock &block) const;
 };
 
-inline MortarReport AxisymmetricContact::update(const ContactState<double> &state, FacetPairs pairs, bool derivatives,
-                                                int first, int last)
+inline MortarReport AxisymmetricContact::update(const ContactState<double> &state, FacetPairs pairs,
+                                                bool derivatives, int first, int last)
 {
   const LineChain &chain = geometry.slave_chain;
   if (last < 0) last = chain.node_count();
@@ -146,7 +156,8 @@ inline MortarReport AxisymmetricContact::update(const ContactState<double> &stat
     if (derivatives) {
       for (int b = 0; b < chain.facet_nodes; ++b) {
         const int node = chain.facets[f][b];
-        if (dn[node].n.z == 0) dn[node] = nodal_normal_derivative(chain, node, geometry.nodes[node].on_axis, x);
+        if (dn[node].n.z == 0)
+          dn[node] = nodal_normal_derivative(chain, node, geometry.nodes[node].on_axis, x);
       }
       facets[f] = facet_mortar_derivative(geometry, f, candidates, x, n, y);
     } else
@@ -195,12 +206,13 @@ Eigen::Matrix<double, 3, inputs> AxisymmetricContact::slope_at(int a, const Node
   const auto &constants = geometry.nodes[a];
   const ContactPoint<double> point{
       now.multiplier[a], {contact.n.r, 0, contact.n.z}, contact.gap, contact.velocity, contact.area_ratio};
-  return constants.weight() *
-         condition_slope<inputs>(point, {constants.c_N, constants.c_N / now.stick_rate}, law, constants.on_axis);
+  return constants.weight() * condition_slope<inputs>(point, {constants.c_N, constants.c_N / now.stick_rate},
+                                                      law, constants.on_axis);
 }
 
 /// Through the area ratio the conditions depend on the positions of the facets' nodes.
-inline void AxisymmetricContact::add_area_slope(int a, const Vector3<double> &condition, NodeBlock &block) const
+inline void AxisymmetricContact::add_area_slope(int a, const Vector3<double> &condition,
+                                                NodeBlock &block) const
 {
   const LineChain &chain = geometry.slave_chain;
   const int tied = geometry.nodes[a].tied;
@@ -228,7 +240,8 @@ inline void AxisymmetricContact::without_multiplier(int a, NodeBlock &block) con
   block.jacobian.bottomRightCorner<3, 3>().diagonal().setConstant(scale);
 }
 
-/// At one of its ends the facet and the next one (on the axis: its mirror image) enclose less than a right angle.
+/// At one of its ends the facet and the next one (on the axis: its mirror image) enclose less than a right
+/// angle.
 inline bool AxisymmetricContact::is_folded(int f) const
 {
   const auto ends = [&]<int nodes>() {

@@ -1,4 +1,5 @@
-/// What of the axisymmetric contact does not change during a run: reference curves, weights, scales of the slave nodes.
+/// What of the axisymmetric contact does not change during a run: reference curves, weights, scales of the
+/// slave nodes.
 #pragma once
 
 #include "tribogel/contact/axisymmetric_state.hpp"
@@ -13,13 +14,14 @@ namespace tribogel
 {
 
 struct ContactParameters {
-  int order = 1;                             ///< of the facets of both curves, 1 or 2
-  double twist_length = 1;                   ///< L in w = L x twist [mm]
-  double softer_modulus = 1;                 ///< shear modulus of the softer body, for the scale c_N [MPa]
-  std::vector<bool> carries_multiplier = {}; ///< of each slave node, false where u is prescribed; empty: all true
-  int facets_in_contact = -1;                ///< only the first so many slave facets can touch; -1: all
-  /// The curve begins at an edge whose node belongs to another slave curve: it has no multiplier here, and its
-  /// neighbour's basis function is extended to it.
+  int order = 1;             ///< of the facets of both curves, 1 or 2
+  double twist_length = 1;   ///< L in w = L x twist [mm]
+  double softer_modulus = 1; ///< shear modulus of the softer body, for the scale c_N [MPa]
+  std::vector<bool> carries_multiplier =
+      {};                     ///< of each slave node, false where u is prescribed; empty: all true
+  int facets_in_contact = -1; ///< only the first so many slave facets can touch; -1: all
+  /// The curve begins at an edge whose node belongs to another slave curve: it has no multiplier here, and
+  /// its neighbour's basis function is extended to it.
   bool starts_at_crease = false;
 };
 
@@ -38,12 +40,13 @@ struct ContactGeometry {
   double slave_length = 0;             ///< of the slave curve [mm]
 
   ContactGeometry() = default;
-  ContactGeometry(SurfaceReference slave_curve, SurfaceReference master_curve, const ContactParameters &parameters)
+  ContactGeometry(SurfaceReference slave_curve, SurfaceReference master_curve,
+                  const ContactParameters &parameters)
       : slave(std::move(slave_curve)), master(std::move(master_curve)),
         slave_chain(touching(slave.facets, parameters.facets_in_contact), parameters.order + 1,
                     static_cast<int>(slave.X.size())),
-        master_chain(master.facets, parameters.order + 1, static_cast<int>(master.X.size())), nodes(slave.X.size()),
-        twist_length(parameters.twist_length)
+        master_chain(master.facets, parameters.order + 1, static_cast<int>(master.X.size())),
+        nodes(slave.X.size()), twist_length(parameters.twist_length)
   {
     if (parameters.order == 1)
       measure_facets<2>(parameters);

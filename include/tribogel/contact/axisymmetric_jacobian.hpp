@@ -1,5 +1,6 @@
-/// Jacobian of one slave node's rows: the derivatives of the facets' mortar integrals and of the nodal normals, known
-/// each with respect to its own few nodes, carried by the chain rule to gap, velocity, forces and conditions.
+/// Jacobian of one slave node's rows: the derivatives of the facets' mortar integrals and of the nodal
+/// normals, known each with respect to its own few nodes, carried by the chain rule to gap, velocity, forces
+/// and conditions.
 #pragma once
 
 #include "tribogel/contact/axisymmetric_node.hpp"
@@ -7,8 +8,8 @@
 namespace tribogel
 {
 
-/// Slave nodes whose positions the rows of node a depend on, a first, then the crease node tied to it: those of its
-/// facets, and of the facets beside them, through the nodal normals.
+/// Slave nodes whose positions the rows of node a depend on, a first, then the crease node tied to it: those
+/// of its facets, and of the facets beside them, through the nodal normals.
 inline std::vector<int> slave_neighbourhood(const ContactGeometry &geometry, int a)
 {
   const LineChain &chain = geometry.slave_chain;
@@ -31,7 +32,8 @@ public:
   NodeDerivative(const ContactGeometry &contact_geometry, const ContactState<double> &state,
                  const NodeContact<double> &contact, const std::vector<PlanePoint<double>> &master_positions,
                  const std::vector<NormalWithDerivative> &normal_derivatives,
-                 const std::vector<FacetMortar<double>> &facet_integrals, int slave, std::vector<int> columns_of_slaves)
+                 const std::vector<FacetMortar<double>> &facet_integrals, int slave,
+                 std::vector<int> columns_of_slaves)
       : geometry(contact_geometry), now(state), node(contact), y(master_positions), dn(normal_derivatives),
         facets(facet_integrals), a(slave), is_tied(geometry.nodes[slave].tied >= 0),
         slaves(std::move(columns_of_slaves)), master_column(3 * static_cast<int>(slaves.size())),
@@ -104,7 +106,8 @@ private:
           row[column + 2] += d[2 * b + 1];
           const NormalWithDerivative &normal = dn[slave];
           for (int q = 0; q < 2 * normal.stencil.count; ++q)
-            row[column_of(normal.stencil, q)] += d[6 + 2 * b] * normal.n.r.d[q] + d[7 + 2 * b] * normal.n.z.d[q];
+            row[column_of(normal.stencil, q)] +=
+                d[6 + 2 * b] * normal.n.r.d[q] + d[7 + 2 * b] * normal.n.z.d[q];
         }
         for (std::size_t l = 0; l < facet.masters.size(); ++l) {
           const int column = master_column + 3 * place(node.masters, facet.masters[l]);

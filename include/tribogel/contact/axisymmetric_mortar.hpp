@@ -1,4 +1,5 @@
-/// Mortar integrals of whole slave facets: the facet pairs summed over the master, with or without derivatives.
+/// Mortar integrals of whole slave facets: the facet pairs summed over the master, with or without
+/// derivatives.
 #pragma once
 
 #include "tribogel/contact/axisymmetric_geometry.hpp"
@@ -29,8 +30,8 @@ template <class T> struct FacetMortar {
   std::vector<int> masters;        ///< nodes k of the master
   std::vector<std::array<T, 3>> M; ///< [k][a], a the slave node's number in the facet [mm^2]
 
-  /// dM[k][a] in row 3 k + a; columns: (r, z) of the facet's 3 slave positions, of its 3 nodal normals, of each master
-  /// k. Only filled when derivatives were asked for.
+  /// dM[k][a] in row 3 k + a; columns: (r, z) of the facet's 3 slave positions, of its 3 nodal normals, of
+  /// each master k. Only filled when derivatives were asked for.
   Eigen::MatrixXd derivative;
 };
 
@@ -64,7 +65,8 @@ template <int nodes> LinePair<nodes, Dual<6 * nodes>> seeded(const LinePair<node
   using D = Dual<6 * nodes>;
   LinePair<nodes, D> dual{{}, {}, {}, pair.inner_edge, pair.outer_edge};
   const auto seed = [](const FacetPoints<nodes, double> &from, FacetPoints<nodes, D> &to, int first) {
-    for (int a = 0; a < nodes; ++a) to[a] = {D::seed(from[a].r, first + 2 * a), D::seed(from[a].z, first + 2 * a + 1)};
+    for (int a = 0; a < nodes; ++a)
+      to[a] = {D::seed(from[a].r, first + 2 * a), D::seed(from[a].z, first + 2 * a + 1)};
   };
   seed(pair.x, dual.x, 0);
   seed(pair.n, dual.n, 2 * nodes);
@@ -114,7 +116,8 @@ FacetMortar<T> gather(const ContactGeometry &geometry, FacetPairs candidates, co
 
 } // namespace axisymmetric_mortar
 
-/// Integrals of slave facet f in the arithmetic of T, from the positions x, y and the slave normals n of all nodes.
+/// Integrals of slave facet f in the arithmetic of T, from the positions x, y and the slave normals n of all
+/// nodes.
 template <class T>
 FacetMortar<T> facet_mortar(const ContactGeometry &geometry, int f, FacetPairs candidates,
                             const std::vector<PlanePoint<T>> &x, const std::vector<PlanePoint<T>> &n,
@@ -130,7 +133,8 @@ FacetMortar<T> facet_mortar(const ContactGeometry &geometry, int f, FacetPairs c
 }
 
 /// The same with the derivatives with respect to the facet's own data.
-inline FacetMortar<double> facet_mortar_derivative(const ContactGeometry &geometry, int f, FacetPairs candidates,
+inline FacetMortar<double> facet_mortar_derivative(const ContactGeometry &geometry, int f,
+                                                   FacetPairs candidates,
                                                    const std::vector<PlanePoint<double>> &x,
                                                    const std::vector<PlanePoint<double>> &n,
                                                    const std::vector<PlanePoint<double>> &y)
@@ -138,7 +142,8 @@ inline FacetMortar<double> facet_mortar_derivative(const ContactGeometry &geomet
   using namespace axisymmetric_mortar;
   const auto integrate = [&]<int nodes>(const std::vector<FacetMeasure<nodes>> &measures) {
     return gather<nodes, Dual<6 * nodes>, double>(geometry, candidates, [&](std::pair<int, int> facets) {
-      return line_pair_mortar<nodes>(measures[f], seeded<nodes>(pair_of<nodes, double>(geometry, facets, x, n, y)));
+      return line_pair_mortar<nodes>(measures[f],
+                                     seeded<nodes>(pair_of<nodes, double>(geometry, facets, x, n, y)));
     });
   };
   return std::visit(integrate, geometry.measures);

@@ -1,20 +1,20 @@
-/// Gap, sliding velocity, nodal forces and conditions of one slave node of the axisymmetric contact, templated on the
-/// scalar.
+/// Gap, sliding velocity, nodal forces and conditions of one slave node of the axisymmetric contact,
+/// templated on the scalar.
 ///
 /// With D = D_a, M_m = M_am and the node's own radius r = r_a as the one arm of both sides:
 ///
 ///     G       = D x - sum_m M_m y_m,   gap = -n . G / D
-///     v_r     = d/dt r   - sum_m M_m d/dt r_m / D                       (likewise v_z, plus the plates' travel rates)
-///     v_theta = r [Omega_s - Omega_m + (d/dt w - sum_m M_m d/dt w_m / D) / L]
-///     residual rows (internal minus external force):  slave  -D (lambda_r, r lambda_theta / L, lambda_z)
+///     v_r     = d/dt r   - sum_m M_m d/dt r_m / D                       (likewise v_z, plus the plates'
+///     travel rates) v_theta = r [Omega_s - Omega_m + (d/dt w - sum_m M_m d/dt w_m / D) / L] residual rows
+///     (internal minus external force):  slave  -D (lambda_r, r lambda_theta / L, lambda_z)
 ///                                                     master +M_m (lambda_r, r lambda_theta / L, lambda_z)
 ///                                                     condition  D C
 ///
-/// A multiplier that is extended to a crease acts on two slave nodes: D x stands for D_aa x_a + D_ac x_c, likewise the
-/// rates and the forces, and D for D_aa + D_ac elsewhere.
+/// A multiplier that is extended to a crease acts on two slave nodes: D x stands for D_aa x_a + D_ac x_c,
+/// likewise the rates and the forces, and D for D_aa + D_ac elsewhere.
 ///
-/// Both frame velocities are taken at the slave's point, so a common rotation is exactly no sliding; sum_m M_m = D, so
-/// the forces and the torque about the axis balance exactly.
+/// Both frame velocities are taken at the slave's point, so a common rotation is exactly no sliding; sum_m
+/// M_m = D, so the forces and the torque about the axis balance exactly.
 #pragma once
 
 #include "tribogel/contact/axisymmetric_mortar.hpp"
@@ -36,7 +36,8 @@ template <class T> struct NodeContact {
 
 /// Sum a slave node's row over its facets.
 template <class T>
-void add_mortar_row(const LineChain &chain, int a, const std::vector<FacetMortar<T>> &facets, NodeContact<T> &node)
+void add_mortar_row(const LineChain &chain, int a, const std::vector<FacetMortar<T>> &facets,
+                    NodeContact<T> &node)
 {
   for (int k = 0; k < chain.neighbours[a].count; ++k) {
     const auto [f, local] = chain.neighbours[a].of[k];
@@ -72,7 +73,8 @@ void add_kinematics(const ContactGeometry &geometry, int a, const ContactState<T
   node.gap = dot(node.n, PlanePoint<T>{projected.r / D, projected.z / D} - own);
   node.velocity -= master_rate / T(D);
   node.velocity[2] += state.slave.travel_rate - state.master.travel_rate;
-  node.spin = state.slave.rotation_rate - state.master.rotation_rate + node.velocity[1] / geometry.twist_length;
+  node.spin =
+      state.slave.rotation_rate - state.master.rotation_rate + node.velocity[1] / geometry.twist_length;
   node.velocity[1] = node.x.r * node.spin;
 }
 
@@ -83,8 +85,8 @@ template <class T> Vector3<T> conjugate_force(const Vector3<T> &multiplier, cons
 }
 
 template <class T> struct NodeResidual {
-  Vector3<T> slave;               ///< rows of u at the slave node [N]
-  Vector3<T> tied;                ///< rows of u at the crease node to which the multiplier is extended, else 0 [N]
+  Vector3<T> slave; ///< rows of u at the slave node [N]
+  Vector3<T> tied;  ///< rows of u at the crease node to which the multiplier is extended, else 0 [N]
   std::vector<Vector3<T>> master; ///< rows of u at its masters [N]
   Vector3<T> condition;           ///< rows of the multiplier, D C [N]
   ContactStatus status;
@@ -95,7 +97,8 @@ NodeResidual<T> node_residual(const ContactGeometry &geometry, int a, const Node
                               const Vector3<T> &multiplier, double stick_rate, const Law &law)
 {
   const auto &constants = geometry.nodes[a];
-  const ContactPoint<T> point{multiplier, {node.n.r, T(0), node.n.z}, node.gap, node.velocity, node.area_ratio};
+  const ContactPoint<T> point{
+      multiplier, {node.n.r, T(0), node.n.z}, node.gap, node.velocity, node.area_ratio};
   const auto condition =
       contact_condition<T>(point, {constants.c_N, constants.c_N / stick_rate}, law, constants.on_axis);
   const Vector3<T> force = conjugate_force<T>(multiplier, node.x.r, geometry.twist_length);

@@ -1,56 +1,60 @@
 /// Contact and friction at one slave node as a semismooth equation, for both models.
 ///
-/// All vectors are given in one orthonormal frame, (r, theta, z) or (x, y, z). With the multiplier lambda (nominal
-/// traction on the slave), its pressure lambda_N = -lambda . n, the gap g >= 0 when open and the sliding velocity
-/// v = slave minus master:
+/// All vectors are given in one orthonormal frame, (r, theta, z) or (x, y, z). With the multiplier lambda
+/// (nominal traction on the slave), its pressure lambda_N = -lambda . n, the gap g >= 0 when open and the
+/// sliding velocity v = slave minus master:
 ///
 ///     p   = max(0, lambda_N - c_N g)
 ///     C_N = lambda_N - p                     open: lambda_N = 0;   closed: g = 0
 ///     C_T = lambda_c - b s / max(b, |s|)     stick: v_T = 0;       slip: lambda_c = -b v_T / |v_T|
 ///
-/// with lambda_c = lambda_T + (tau_1 / v) v_T the tangential traction without the law's smooth part, b = tau(0+, p) and
-/// s = lambda_c - k v_T, k = c_T + max(0, tau_1 / v). The vector equation is C = -C_N n + C_T = 0; at an open node it
-/// is lambda = 0.
+/// with lambda_c = lambda_T + (tau_1 / v) v_T the tangential traction without the law's smooth part, b =
+/// tau(0+, p) and s = lambda_c - k v_T, k = c_T + max(0, tau_1 / v). The vector equation is C = -C_N n + C_T
+/// = 0; at an open node it is lambda = 0.
 ///
-/// A law with a steep part tau_s(v) takes the speed V at which that part fits to s in place of the bare threshold:
+/// A law with a steep part tau_s(v) takes the speed V at which that part fits to s in place of the bare
+/// threshold:
 ///
 ///     C_T = lambda_c - (b + tau_s(V)) s / |s|,    b + tau_s(V) + k V = |s|,    |s| > b
 ///         = k (v_T + V s / |s|)                   (the same; whichever cancels less is evaluated)
 ///
-/// C_T = 0 says v_T = -V s / |s| and |lambda_c| = b + tau_s(V): the law itself, whatever k is. The slope of b +
-/// tau_s(V) in |s| is tau_s' / (tau_s' + k), between 0 and 1 and 1 at rest, so Newton's method moves from rest and C_T
-/// is even continuously differentiable at |s| = b. With tau_s = 0 it is the condition above.
+/// C_T = 0 says v_T = -V s / |s| and |lambda_c| = b + tau_s(V): the law itself, whatever k is. The slope of b
+/// + tau_s(V) in |s| is tau_s' / (tau_s' + k), between 0 and 1 and 1 at rest, so Newton's method moves from
+/// rest and C_T is even continuously differentiable at |s| = b. With tau_s = 0 it is the condition above.
 ///
-/// In a steady state of the half plane the direction of the velocity is that of the plates: c_T is infinite. s then
-/// points against v_T and V = |v_T|, so that the condition is the law as it stands,
+/// In a steady state of the half plane the direction of the velocity is that of the plates: c_T is infinite.
+/// s then points against v_T and V = |v_T|, so that the condition is the law as it stands,
 ///
 ///     C_T = lambda_c + (b + tau_s(|v_T|)) v_T / |v_T|,    C_T = lambda_c where v_T = 0,
 ///
 /// linear in lambda. (A finite c_T leaves the row of a steep law at rest empty: all that it holds is k v_T.)
 ///
-/// Measured on the node on springs of tests/unit/test_conditions_steep.cpp, 1000 problems over decades of v, p and
-/// traction for each law, from rest under pressure and at first touch. With c_T from 0.1 to 2 times the spring's
-/// stiffness x time the exponents (0.1), (0.5), (0.9), (0, 0.5), (0.5, 2), (0.1, 2.5), (0, 0.5, 1, 2) never fail and
-/// take at most 11 iterations; with 10 times up to 83 of 1000 fail (m = 0.1 alone), with a threshold up to 319, where
-/// Coulomb's law itself fails in 50 at rest and in 286 at first touch. Other forms, from rest: lambda =
-/// -tau(|v_T|) v_T/|v_T| fails in 492 (m = 0.1) and 367 (m = 0.5), v_T = -v(|lambda|) lambda/|lambda| in 60 to 99 and
-/// up to 36. If tau_1 kept the terms with m >= 1, exponents (0.5, 2) would fail at first touch in 23 to 70.
+/// Measured on the node on springs of tests/unit/test_conditions_steep.cpp, 1000 problems over decades of v,
+/// p and traction for each law, from rest under pressure and at first touch. With c_T from 0.1 to 2 times the
+/// spring's stiffness x time the exponents (0.1), (0.5), (0.9), (0, 0.5), (0.5, 2), (0.1, 2.5), (0, 0.5, 1,
+/// 2) never fail and take at most 11 iterations; with 10 times up to 83 of 1000 fail (m = 0.1 alone), with a
+/// threshold up to 319, where Coulomb's law itself fails in 50 at rest and in 286 at first touch. Other
+/// forms, from rest: lambda = -tau(|v_T|) v_T/|v_T| fails in 492 (m = 0.1) and 367 (m = 0.5), v_T =
+/// -v(|lambda|) lambda/|lambda| in 60 to 99 and up to 36. If tau_1 kept the terms with m >= 1, exponents
+/// (0.5, 2) would fail at first touch in 23 to 70.
 ///
 /// The second term in s keeps s pointing against v_T while the multiplier has not yet followed. With
-/// s = lambda_c - c_T v_T Newton's method failed in 266 of the 3000 problems of test_conditions' node on a spring (none
-/// with the term) and took twice the iterations. Where tau_1 < 0 (weakening) the term would hide the slip solution, so
-/// only its positive part is taken.
+/// s = lambda_c - c_T v_T Newton's method failed in 266 of the 3000 problems of test_conditions' node on a
+/// spring (none with the term) and took twice the iterations. Where tau_1 < 0 (weakening) the term would hide
+/// the slip solution, so only its positive part is taken.
 ///
 /// Choices where the equation has a kink; value and derivative are always those of one definite side:
 /// - lambda_N = c_N g is closed: two surfaces that just touch start with the row g = 0.
 /// - |s| = b > 0 sticks.
-/// - b = s = 0 (no law, no load, or the state at t = 0): C_T = lambda_c, whose row is never empty. With a steep part
+/// - b = s = 0 (no law, no load, or the state at t = 0): C_T = lambda_c, whose row is never empty. With a
+/// steep part
 ///   under pressure: C_T = k v_T.
 /// - An area ratio J scales the law, tau per reference area = J tau(v, p / J), where it is not linear in p.
 /// - v_T = 0: the smooth part is (tau_1 / v at v = 0) times v_T, differentiable without a direction.
-/// - First touch: the law sees p, not lambda_N. While lambda_N is still 0, p = c_N |g| is not, so the node sticks as
-///   long as its slip increment is below about mu |g|, and a high friction coefficient is felt at once. No memory of
-///   the iteration before is needed: the same state always gives the same equation.
+/// - First touch: the law sees p, not lambda_N. While lambda_N is still 0, p = c_N |g| is not, so the node
+/// sticks as
+///   long as its slip increment is below about mu |g|, and a high friction coefficient is felt at once. No
+///   memory of the iteration before is needed: the same state always gives the same equation.
 #pragma once
 
 #include "tribogel/friction/law.hpp"
@@ -70,10 +74,11 @@ template <class T> struct ContactPoint {
   Vector3<T> normal;     ///< unit, out of the slave
   T gap;                 ///< along the normal, negative when penetrating [mm]
   Vector3<T> velocity;   ///< slave minus master; only its tangential part matters [mm/s]
-  T area_ratio = 1;      ///< current over reference area; of no effect for a law that is linear in the pressure
+  T area_ratio = 1; ///< current over reference area; of no effect for a law that is linear in the pressure
 };
 
-/// The conditions hold for any positive values: they set how strongly a violated one changes the status of a node.
+/// The conditions hold for any positive values: they set how strongly a violated one changes the status of a
+/// node.
 struct ContactScale {
   double normal;     ///< c_N, a stiffness per area [MPa/mm]
   double tangential; ///< c_T [MPa s/mm]; infinite where the velocity is given
@@ -100,7 +105,8 @@ Vector3<T> drag_at(const Vector3<T> &v, const T &area_ratio, const T &cauchy, co
 {
   const T speed = robust_norm(v);
   T over_speed = law.sliding(speed, cauchy).over_v;
-  if (value(speed) > 0) over_speed += (law.static_strength(cauchy).value + law.steep_stress(speed, cauchy)) / speed;
+  if (value(speed) > 0)
+    over_speed += (law.static_strength(cauchy).value + law.steep_stress(speed, cauchy)) / speed;
   return area_ratio * over_speed * v;
 }
 

@@ -1,8 +1,8 @@
 /// Dual (biorthogonal) basis of the contact multiplier on one facet, for any facet shape and dimension.
 ///
-/// psi_a = sum_b A_ab N_b with A = diag(D) M^-1, D_a = int N_a w, M_ab = int N_a N_b w and w the reference weight (2 pi
-/// R dS in the half plane, dS in 3-D). Then int psi_a N_b w = D_a delta_ab, so a multiplier's coupling to its own
-/// surface is diagonal, and sum_a psi_a = 1, so constants are reproduced.
+/// psi_a = sum_b A_ab N_b with A = diag(D) M^-1, D_a = int N_a w, M_ab = int N_a N_b w and w the reference
+/// weight (2 pi R dS in the half plane, dS in 3-D). Then int psi_a N_b w = D_a delta_ab, so a multiplier's
+/// coupling to its own surface is diagonal, and sum_a psi_a = 1, so constants are reproduced.
 #pragma once
 
 #include <Eigen/Dense>
@@ -29,9 +29,9 @@ template <int nodes> struct DualBasis {
   }
 };
 
-/// From the integrals above. A node whose D_a is zero up to round-off gets exactly D_a = 0 and psi_a = 0: that is the
-/// axis node of a quadratic facet whose midside node lies in the middle, where int N_axis R dR = 0. The other functions
-/// stay biorthogonal and still add up to one.
+/// From the integrals above. A node whose D_a is zero up to round-off gets exactly D_a = 0 and psi_a = 0:
+/// that is the axis node of a quadratic facet whose midside node lies in the middle, where int N_axis R dR =
+/// 0. The other functions stay biorthogonal and still add up to one.
 template <int nodes>
 DualBasis<nodes> dual_basis(const std::array<double, nodes> &D, const Eigen::Matrix<double, nodes, nodes> &M)
 {

@@ -1,8 +1,8 @@
 /// Facets of a meridian curve in the (r, z) half plane: shape functions, reference weight, chains of facets.
 ///
-/// A facet has 2 nodes (order 1) or 3 (order 2): its ends first, the one nearer the axis before the other, then the
-/// midside node; xi runs from -1 to 1 in the same direction. Surfaces are chains of facets ordered from the axis
-/// outwards.
+/// A facet has 2 nodes (order 1) or 3 (order 2): its ends first, the one nearer the axis before the other,
+/// then the midside node; xi runs from -1 to 1 in the same direction. Surfaces are chains of facets ordered
+/// from the axis outwards.
 #pragma once
 
 #include "tribogel/contact/dual_basis.hpp"
@@ -59,10 +59,10 @@ PlanePoint<T> interpolate(const std::array<W, nodes> &N, const std::array<PlaneP
   return sum;
 }
 
-/// Reference weight 2 pi R dS/dxi of a facet as a polynomial in xi, and the dual basis that belongs to it. dS/dxi is
-/// replaced by its quadratic interpolant at three Gauss points (exact on a straight facet): every integral of the
-/// weight with polynomials is then exact in whatever cells the facet is cut, so that the cells add up to the facet to
-/// round-off.
+/// Reference weight 2 pi R dS/dxi of a facet as a polynomial in xi, and the dual basis that belongs to it.
+/// dS/dxi is replaced by its quadratic interpolant at three Gauss points (exact on a straight facet): every
+/// integral of the weight with polynomials is then exact in whatever cells the facet is cut, so that the
+/// cells add up to the facet to round-off.
 template <int nodes> struct FacetMeasure {
   std::array<double, nodes> R;   ///< reference radii [mm]
   std::array<double, 3> stretch; ///< dS/dxi = stretch[0] + stretch[1] xi + stretch[2] xi^2 [mm]
@@ -71,7 +71,10 @@ template <int nodes> struct FacetMeasure {
   std::array<double, nodes> extent; ///< int |N_a| w, positive also where D_a = 0 [mm^2]
 
   /// dS/dxi [mm]
-  template <class T> T stretch_at(const T &xi) const { return stretch[0] + xi * (stretch[1] + xi * stretch[2]); }
+  template <class T> T stretch_at(const T &xi) const
+  {
+    return stretch[0] + xi * (stretch[1] + xi * stretch[2]);
+  }
 
   /// 2 pi R dS/dxi [mm^2], given the shape functions at xi.
   template <class T> T weight(const std::array<T, nodes> &N, const T &xi) const

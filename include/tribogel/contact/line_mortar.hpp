@@ -2,14 +2,14 @@
 ///
 ///     M_am = int psi_a(xi) N_m(eta(xi)) 2 pi R(xi) dS
 ///
-/// over the cell: the part of the slave facet that faces the master facet. eta is the projection along the slave's
-/// interpolated normal n(xi) = sum_a N_a n_a, that is (y(eta) - x(xi)) x n(xi) = 0. The cell's ends are the projections
-/// of the master's ends, or the slave's own. Summed over a chain of master facets the cells cover the slave facet once,
-/// and sum_m M_am = D_a to round-off.
+/// over the cell: the part of the slave facet that faces the master facet. eta is the projection along the
+/// slave's interpolated normal n(xi) = sum_a N_a n_a, that is (y(eta) - x(xi)) x n(xi) = 0. The cell's ends
+/// are the projections of the master's ends, or the slave's own. Summed over a chain of master facets the
+/// cells cover the slave facet once, and sum_m M_am = D_a to round-off.
 ///
-/// Where a slave facet hangs over the master's edge, the outermost master facet is continued along its end tangent (the
-/// innermost one likewise inwards), so that sum_m M_am = D_a still holds and neither tends to zero. What is integrated
-/// there is a fiction; its length is reported so that it can be refused.
+/// Where a slave facet hangs over the master's edge, the outermost master facet is continued along its end
+/// tangent (the innermost one likewise inwards), so that sum_m M_am = D_a still holds and neither tends to
+/// zero. What is integrated there is a fiction; its length is reported so that it can be refused.
 ///
 /// T = double, or Dual with derivatives with respect to slave positions, slave normals and master positions.
 #pragma once
@@ -29,12 +29,12 @@ template <int nodes, class T> struct LinePair {
 template <int nodes, class T> struct LinePairMortar {
   MortarStatus status = MortarStatus::ok;
   std::array<std::array<T, nodes>, nodes> M{}; ///< [slave node][master node], mm^2
-  double covered = 0;                          ///< length of the cells in xi: 2 when summed over the master chain
-  double overhang = 0;                         ///< reference length beyond the master's edge [mm]
+  double covered = 0;  ///< length of the cells in xi: 2 when summed over the master chain
+  double overhang = 0; ///< reference length beyond the master's edge [mm]
 };
 
-/// Root of an increasing function in [low, high]: Newton's method kept inside the shrinking bracket. `f` returns the
-/// value and the slope.
+/// Root of an increasing function in [low, high]: Newton's method kept inside the shrinking bracket. `f`
+/// returns the value and the slope.
 template <class Function> bool bracketed_root(const Function &f, double low, double high, double &x)
 {
   constexpr double tolerance = 1e-10; // of the last step; what is left is its square
@@ -59,8 +59,8 @@ template <class T> struct SlaveLine {
 
 /// (y - x(xi)) x n(xi), and its derivative with respect to xi. It increases with xi on a sound facet.
 template <int nodes, class T>
-SlaveLine<T> offset_from_slave(const FacetPoints<nodes, T> &x, const FacetPoints<nodes, T> &n, const PlanePoint<T> &y,
-                               double xi)
+SlaveLine<T> offset_from_slave(const FacetPoints<nodes, T> &x, const FacetPoints<nodes, T> &n,
+                               const PlanePoint<T> &y, double xi)
 {
   const auto shape = facet_shape<nodes>(xi);
   const PlanePoint<T> normal = interpolate(shape.N, n), arm = y - interpolate(shape.N, x);
@@ -74,8 +74,8 @@ template <int nodes, class T> FacetPoints<nodes, double> values(const FacetPoint
   return plain;
 }
 
-/// One facet pair, with its values apart: projections are found in double, then one Newton step in T makes them exact
-/// to first order.
+/// One facet pair, with its values apart: projections are found in double, then one Newton step in T makes
+/// them exact to first order.
 template <int nodes, class T> class Kernel
 {
 public:
@@ -106,14 +106,16 @@ private:
   FacetPoints<nodes, double> x, n, y;
   LinePairMortar<nodes, T> out;
 
-  /// Where the master's end projects to on the slave facet, -1 or 1 if that is beyond. Neighbouring slave facets decide
-  /// this from the same numbers at their shared node, and so do neighbouring master facets: no cell is lost or doubled.
+  /// Where the master's end projects to on the slave facet, -1 or 1 if that is beyond. Neighbouring slave
+  /// facets decide this from the same numbers at their shared node, and so do neighbouring master facets: no
+  /// cell is lost or doubled.
   T clip(int end)
   {
     const double low = offset_from_slave<nodes>(x, n, y[end], -1).offset;
     const double high = offset_from_slave<nodes>(x, n, y[end], 1).offset;
     const bool before = !(low < 0), beyond = !(high > 0);
-    if (before && beyond) out.status = std::isfinite(low + high) ? MortarStatus::folded : MortarStatus::no_projection;
+    if (before && beyond)
+      out.status = std::isfinite(low + high) ? MortarStatus::folded : MortarStatus::no_projection;
     if (before) return T(-1);
     if (beyond) return T(1);
     double xi = 0;
@@ -165,8 +167,9 @@ private:
     return N;
   }
 
-  /// Gauss points between two values of xi; edge = 0: facing the facet, else its extension. Three points (order 1) and
-  /// five (order 2) are exact where both facets are straight: psi N_m R dS/dxi has degree 3 and 8.
+  /// Gauss points between two values of xi; edge = 0: facing the facet, else its extension. Three points
+  /// (order 1) and five (order 2) are exact where both facets are straight: psi N_m R dS/dxi has degree 3
+  /// and 8.
   void add_cell(const T &from, const T &to, int edge)
   {
     constexpr int points = nodes == 2 ? 3 : 5;

@@ -1,9 +1,10 @@
 /// Averaged nodal normals of the slave curve.
 ///
-/// The normal of a facet whose tangent t = dx/dxi points away from the axis is n = (t_z, -t_r) / |t|: out of a body
-/// that lies above the curve, so it points down. At a node shared by two facets their unit normals are added and the
-/// sum is normalised; at the curve's outer end (the rim, where a side wall begins) only the curve's own facet counts.
-/// On the axis the neighbour is the facet's mirror image: n_r = 0 exactly, n = (0, -1), whatever the facet does.
+/// The normal of a facet whose tangent t = dx/dxi points away from the axis is n = (t_z, -t_r) / |t|: out of
+/// a body that lies above the curve, so it points down. At a node shared by two facets their unit normals are
+/// added and the sum is normalised; at the curve's outer end (the rim, where a side wall begins) only the
+/// curve's own facet counts. On the axis the neighbour is the facet's mirror image: n_r = 0 exactly, n = (0,
+/// -1), whatever the facet does.
 #pragma once
 
 #include "tribogel/contact/line_facet.hpp"
@@ -59,7 +60,8 @@ PlanePoint<T> nodal_normal(const LineChain &chain, int a, bool on_axis, const Po
   return {sum.r * inverse, sum.z * inverse};
 }
 
-/// A normal with its derivatives: dr[k], dz[k] with respect to coordinate k % 2 (r, z) of node stencil.node[k / 2].
+/// A normal with its derivatives: dr[k], dz[k] with respect to coordinate k % 2 (r, z) of node stencil.node[k
+/// / 2].
 struct NormalWithDerivative {
   NormalStencil stencil;
   PlanePoint<Dual<10>> n;

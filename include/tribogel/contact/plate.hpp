@@ -1,8 +1,9 @@
 /// Contact of one wall node with a rigid flat plate, without friction.
 ///
-/// With a dual multiplier the weighted gap int psi_a g of a flat master is D_a times the node's own distance, so the
-/// condition is the node's. Direction of gap and traction is the plate's normal: the wall's own is perpendicular to it
-/// at the start. A node that is bonded to the plate has no multiplier (its pressure belongs to the glue).
+/// With a dual multiplier the weighted gap int psi_a g of a flat master is D_a times the node's own distance,
+/// so the condition is the node's. Direction of gap and traction is the plate's normal: the wall's own is
+/// perpendicular to it at the start. A node that is bonded to the plate has no multiplier (its pressure
+/// belongs to the glue).
 #pragma once
 
 #include "tribogel/contact/conditions.hpp"
@@ -22,8 +23,8 @@ struct PlateNodeBlock {
 };
 
 /// `normal` is the unit normal into the plate, `gap` the node's distance from it, negative inside [mm].
-inline PlateNodeBlock plate_node(double gap, const Vector3<double> &normal, const Vector3<double> &multiplier, double D,
-                                 double c_N)
+inline PlateNodeBlock plate_node(double gap, const Vector3<double> &normal, const Vector3<double> &multiplier,
+                                 double D, double c_N)
 {
   using Scalar = Dual<4>; // multiplier 0..2, gap
   ContactPoint<Scalar> point;

@@ -1,5 +1,5 @@
-/// The current area that belongs to a slave node in space, int N_a |t_1 x t_2|: a nodal force over it is a Cauchy
-/// traction.
+/// The current area that belongs to a slave node in space, int N_a |t_1 x t_2|: a nodal force over it is a
+/// Cauchy traction.
 #pragma once
 
 #include "tribogel/contact/quad_facet.hpp"
@@ -34,7 +34,8 @@ void add_facet(const QuadSurface &surface, const QuadSurface::FacetNode &at, int
     for (int b = 0; b < nodes; ++b)
       if (surface.facets[at.facet][b] == tied) N += shape.N[b];
     N *= rule.weight[i] * rule.weight[j];
-    const Vector3<double> t1 = tangent(shape.dN, points, 0), t2 = tangent(shape.dN, points, 1), c = t1.cross(t2);
+    const Vector3<double> t1 = tangent(shape.dN, points, 0), t2 = tangent(shape.dN, points, 1),
+                          c = t1.cross(t2);
     sum.value += N * c.norm();
     const Vector3<double> n = c.normalized(), by_t1 = N * t2.cross(n), by_t2 = N * n.cross(t1);
     for (int b = 0; b < nodes; ++b) slope[b] += shape.dN[b][0] * by_t1 + shape.dN[b][1] * by_t2;
@@ -44,8 +45,8 @@ void add_facet(const QuadSurface &surface, const QuadSurface::FacetNode &at, int
 }
 } // namespace quad_area
 
-/// x are the positions of all nodes; `tied` is the crease node whose share of the facets is a's too, -1: none. A node
-/// of several facets is listed several times.
+/// x are the positions of all nodes; `tied` is the crease node whose share of the facets is a's too, -1:
+/// none. A node of several facets is listed several times.
 inline QuadArea nodal_area(const QuadSurface &surface, int a, int tied, const std::vector<Vector3<double>> &x,
                            bool with_derivatives)
 {

@@ -1,10 +1,10 @@
-/// Mortar integrals of a slave facet at its own Gauss points, each projected to whichever master facet it hits: cheap,
-/// and not exact where a facet faces several, since the integrand has kinks there.
+/// Mortar integrals of a slave facet at its own Gauss points, each projected to whichever master facet it
+/// hits: cheap, and not exact where a facet faces several, since the integrand has kinks there.
 ///
 ///     M_ab = sum_q w_q psi_a(xi_q) N_b(eta(xi_q)) J(xi_q)
 ///
-/// sum_b M_ab = D_a holds as for exact cells, so forces balance to round-off; uniform pressure is passed on with an
-/// error (THEORY, section 3.7).
+/// sum_b M_ab = D_a holds as for exact cells, so forces balance to round-off; uniform pressure is passed on
+/// with an error (THEORY, section 3.7).
 #pragma once
 
 #include "tribogel/contact/quad_point.hpp"
@@ -18,7 +18,8 @@ namespace tribogel
 /// Gauss points in each direction of a slave facet.
 template <int order> inline constexpr int element_points = order + 3;
 
-/// How far beyond a facet a point is, where 1 is the end of its extension, or half of its width; less than 0 inside.
+/// How far beyond a facet a point is, where 1 is the end of its extension, or half of its width; less than 0
+/// inside.
 inline double beyond_facet(const std::array<double, 2> &eta, const EdgeExtension &extension)
 {
   double farthest = -1;
@@ -30,11 +31,12 @@ inline double beyond_facet(const std::array<double, 2> &eta, const EdgeExtension
   return farthest;
 }
 
-/// One result for each of `pairs`, which hold the same slave data; a point that hits none makes the facet uncovered
-/// (sum of `covered` < 4).
+/// One result for each of `pairs`, which hold the same slave data; a point that hits none makes the facet
+/// uncovered (sum of `covered` < 4).
 template <int order>
 std::vector<QuadPairMortar<order>> quad_element_mortar(const QuadMeasure<order> &slave,
-                                                       const std::vector<QuadPair<order>> &pairs, bool derivatives)
+                                                       const std::vector<QuadPair<order>> &pairs,
+                                                       bool derivatives)
 {
   constexpr int points = element_points<order>, nodes = tensor_nodes<2, order>;
   static_assert(points * points <= quad_mortar::Samples<order>::most);
@@ -70,7 +72,8 @@ std::vector<QuadPairMortar<order>> quad_element_mortar(const QuadMeasure<order> 
   for (std::size_t k = 0; k < hits.size(); ++k) {
     if (hits[k].empty()) continue;
     samples.count = 0;
-    for (const Hit &one : hits[k]) results[k].overhang += at[k].sample(one.meeting, one.weight, derivatives, samples);
+    for (const Hit &one : hits[k])
+      results[k].overhang += at[k].sample(one.meeting, one.weight, derivatives, samples);
     results[k].M = samples.integral();
     if (!derivatives) continue;
     results[k].dM.setZero(nodes * nodes, 9 * nodes);

@@ -1,4 +1,5 @@
-/// Facets of a surface in space: quadrilaterals with 4 (order 1) or 9 nodes (order 2), lexicographic in (xi, eta) on
+/// Facets of a surface in space: quadrilaterals with 4 (order 1) or 9 nodes (order 2), lexicographic in (xi,
+/// eta) on
 /// [-1, 1]^2, oriented such that dx/dxi x dx/deta points out of the body.
 #pragma once
 
@@ -19,8 +20,8 @@ namespace tribogel
 template <int order> using QuadPoints = std::array<Vector3<double>, tensor_nodes<2, order>>;
 template <int order> using QuadShape = TensorShape<2, order>;
 
-/// Shape functions of a facet. Beyond the square they go on linearly in each direction, with a continuous slope: a
-/// quadratic facet that went on as a parabola would soon fold back over itself.
+/// Shape functions of a facet. Beyond the square they go on linearly in each direction, with a continuous
+/// slope: a quadratic facet that went on as a parabola would soon fold back over itself.
 template <int order> QuadShape<order> quad_shape(const std::array<double, 2> &xi)
 {
   LineShape<order> line[2];
@@ -56,17 +57,17 @@ Vector3<double> interpolate(const std::array<double, nodes> &N, const std::array
 
 /// sum_a x_a dN_a/dxi_j
 template <std::size_t nodes>
-Vector3<double> tangent(const std::array<std::array<double, 2>, nodes> &dN, const std::array<Vector3<double>, nodes> &x,
-                        int j)
+Vector3<double> tangent(const std::array<std::array<double, 2>, nodes> &dN,
+                        const std::array<Vector3<double>, nodes> &x, int j)
 {
   Vector3<double> sum = dN[0][j] * x[0];
   for (std::size_t a = 1; a < nodes; ++a) sum += dN[a][j] * x[a];
   return sum;
 }
 
-/// The reference weight dS/(dxi deta) of a facet as a polynomial, and the dual basis that belongs to it. The weight is
-/// replaced by its interpolant at (order + 1)^2 Gauss points (exact on a flat facet of order 1): its integrals with the
-/// basis are then exact in whatever polygons the facet is cut.
+/// The reference weight dS/(dxi deta) of a facet as a polynomial, and the dual basis that belongs to it. The
+/// weight is replaced by its interpolant at (order + 1)^2 Gauss points (exact on a flat facet of order 1):
+/// its integrals with the basis are then exact in whatever polygons the facet is cut.
 template <int order> struct QuadMeasure {
   static constexpr int nodes = tensor_nodes<2, order>;
   std::array<double, nodes> sample; ///< dS/(dxi deta) at the Gauss points [mm^2]
@@ -91,9 +92,9 @@ template <int order> struct QuadMeasure {
   }
 };
 
-/// Coordinates l of points near a facet in the plane that touches it at its centre: those of the square if the facet is
-/// a parallelogram, and linear in the position, x - c = A l + e with A the tangents at the centre c and e normal to
-/// them. Unlike xi they are defined everywhere.
+/// Coordinates l of points near a facet in the plane that touches it at its centre: those of the square if
+/// the facet is a parallelogram, and linear in the position, x - c = A l + e with A the tangents at the
+/// centre c and e normal to them. Unlike xi they are defined everywhere.
 template <int order> struct QuadFrame {
   QuadShape<order> at_centre = quad_shape<order>({0, 0});
   Vector3<double> centre;
@@ -121,8 +122,8 @@ template <int order> struct QuadFrame {
   }
 };
 
-/// A line parallel to that through two corners of a facet which has all its nodes on one side, in the coordinates of
-/// its frame: normal . l <= normal . l(outermost).
+/// A line parallel to that through two corners of a facet which has all its nodes on one side, in the
+/// coordinates of its frame: normal . l <= normal . l(outermost).
 template <int order> struct QuadSide {
   int from, to; ///< the corners
   Vector2<double> normal;
@@ -177,8 +178,8 @@ template <int order> QuadMeasure<order> quad_measure(const QuadPoints<order> &X)
   return facet;
 }
 
-/// How far a facet goes on beyond its sides xi = -1, xi = 1, eta = -1, eta = 1, in xi, at either end of each side; 0
-/// where the side is not the surface's edge.
+/// How far a facet goes on beyond its sides xi = -1, xi = 1, eta = -1, eta = 1, in xi, at either end of each
+/// side; 0 where the side is not the surface's edge.
 using EdgeExtension = std::array<std::array<double, 2>, 4>;
 
 /// A surface in its undeformed state.
@@ -187,8 +188,8 @@ struct QuadReference {
   std::vector<std::array<int, 9>> facets; ///< node numbers; order 1 uses the first four
 };
 
-/// Which facets meet at a node, and which of their sides are the surface's edge. Facets may be left out: they are no
-/// node's neighbours and meet nothing.
+/// Which facets meet at a node, and which of their sides are the surface's edge. Facets may be left out: they
+/// are no node's neighbours and meet nothing.
 struct QuadSurface {
   struct FacetNode {
     int facet, local; ///< the node is number `local` of `facet`
@@ -222,13 +223,14 @@ struct QuadSurface {
   int node_count() const { return static_cast<int>(neighbours.size()); }
   int facet_nodes() const { return (order + 1) * (order + 1); }
 
-  /// Local numbers of the nodes on side `side` of a facet (as in on_edge), for depth > 0 of the row of nodes so many
-  /// steps away from it.
+  /// Local numbers of the nodes on side `side` of a facet (as in on_edge), for depth > 0 of the row of nodes
+  /// so many steps away from it.
   std::vector<int> nodes_along(int side, int depth = 0) const
   {
     const int across = side % 2 == 0 ? depth : order - depth;
     std::vector<int> local;
-    for (int k = 0; k <= order; ++k) local.push_back(side < 2 ? across + k * (order + 1) : across * (order + 1) + k);
+    for (int k = 0; k <= order; ++k)
+      local.push_back(side < 2 ? across + k * (order + 1) : across * (order + 1) + k);
     return local;
   }
 

@@ -1,11 +1,11 @@
-/// The mortar integrals of a pair of facets over a polygon in the slave's parameter plane, as a sum over the triangles
-/// between its edges and a point in its middle, with Gauss points on each.
+/// The mortar integrals of a pair of facets over a polygon in the slave's parameter plane, as a sum over the
+/// triangles between its edges and a point in its middle, with Gauss points on each.
 ///
-/// psi_a N_b J is no polynomial in general, so the triangles' rule misses something, and what it misses depends on
-/// where the triangles lie. They move continuously with the surfaces, also where a corner of the polygon is cut off or
-/// two meet: a side may become short and vanish, and its triangle with it. (Triangles from one of the corners do not:
-/// another corner takes its place when it leaves the slave facet, and the integrals jump by what the rule misses.
-/// Newton's method then has no solution to find, below that.)
+/// psi_a N_b J is no polynomial in general, so the triangles' rule misses something, and what it misses
+/// depends on where the triangles lie. They move continuously with the surfaces, also where a corner of the
+/// polygon is cut off or two meet: a side may become short and vanish, and its triangle with it. (Triangles
+/// from one of the corners do not: another corner takes its place when it leaves the slave facet, and the
+/// integrals jump by what the rule misses. Newton's method then has no solution to find, below that.)
 #pragma once
 
 #include "tribogel/contact/quad_point.hpp"
@@ -15,8 +15,8 @@
 namespace tribogel
 {
 
-/// Gauss points on a triangle as barycentric weights (product rule on the collapsed square); weights add up to 1. Exact
-/// to degree 2 n - 2.
+/// Gauss points on a triangle as barycentric weights (product rule on the collapsed square); weights add up
+/// to 1. Exact to degree 2 n - 2.
 template <int n> struct TriangleRule {
   std::array<std::array<double, 3>, n * n> point;
   std::array<double, n * n> weight;
@@ -38,10 +38,10 @@ template <int n> TriangleRule<n> triangle_rule()
 namespace quad_mortar
 {
 
-/// Degree 8 and 10 a triangle. On flat parallelograms psi_a N_b has degree 4 and 8. Beyond that the degree is seen
-/// where lines of both meshes lie on each other to round-off, as on coaxial cylinders before they turn: a master's
-/// vertex on a slave's side divides a triangle or does not. With degree 8 at order 2 the paper scene's residual then
-/// jumps by 1e-9 of the forces, with degree 10 by less than round-off.
+/// Degree 8 and 10 a triangle. On flat parallelograms psi_a N_b has degree 4 and 8. Beyond that the degree is
+/// seen where lines of both meshes lie on each other to round-off, as on coaxial cylinders before they turn:
+/// a master's vertex on a slave's side divides a triangle or does not. With degree 8 at order 2 the paper
+/// scene's residual then jumps by 1e-9 of the forces, with degree 10 by less than round-off.
 template <int order> inline constexpr int rule_points = order + 4;
 
 template <int order> class Fan
@@ -87,7 +87,10 @@ private:
   Vector2<double> middle;
   ByXi by_middle;
 
-  static double cross(const Vector2<double> &a, const Vector2<double> &b) { return a[0] * b[1] - a[1] * b[0]; }
+  static double cross(const Vector2<double> &a, const Vector2<double> &b)
+  {
+    return a[0] * b[1] - a[1] * b[0];
+  }
 
   /// The mean of the outline: a vertex that divides, or two that meet, do not move it.
   void find_middle(const std::vector<Vector2<double>> &polygon)
@@ -109,7 +112,8 @@ private:
   void share_middle(const std::vector<Vector2<double>> &polygon)
   {
     double length = 0;
-    for (std::size_t k = 0; k < polygon.size(); ++k) length += (polygon[(k + 1) % polygon.size()] - polygon[k]).norm();
+    for (std::size_t k = 0; k < polygon.size(); ++k)
+      length += (polygon[(k + 1) % polygon.size()] - polygon[k]).norm();
     for (std::size_t k = 0; k < polygon.size(); ++k) {
       const std::size_t next = (k + 1) % polygon.size();
       const Vector2<double> along = polygon[next] - polygon[k];

@@ -2,16 +2,18 @@
 ///
 ///     M_ab = int psi_a(xi) N_b(eta(xi)) J(xi) dxi,     J the reference weight of the slave facet
 ///
-/// over the part of the slave facet that faces the master facet: along the normals n(xi) = sum N_a n_a (THEORY, section
-/// 3.7). The master's outline, as a polygon of points at fixed eta, is projected into the slave's parameter plane,
+/// over the part of the slave facet that faces the master facet: along the normals n(xi) = sum N_a n_a
+/// (THEORY, section 3.7). The master's outline, as a polygon of points at fixed eta, is projected into the
+/// slave's parameter plane,
 ///
-///     x(xi) + g n(xi) = y(eta)                                                                   for (xi, g),
+///     x(xi) + g n(xi) = y(eta)                                                                   for (xi,
+///     g),
 ///
-/// clipped to the square [-1, 1]^2 and cut into triangles (Fan) with Gauss points, whose eta follows from the same
-/// equation for (eta, g). Master facets that share an outline thus tile the slave's square without gap or overlap, and
-/// sum_b M_ab over all of them is D_a to round-off. A quadratic or distorted facet's projected outline is a curve, of
-/// which the polygon takes the chords: Gauss points between the two lie just outside the master facet, where its shape
-/// functions go on.
+/// clipped to the square [-1, 1]^2 and cut into triangles (Fan) with Gauss points, whose eta follows from the
+/// same equation for (eta, g). Master facets that share an outline thus tile the slave's square without gap
+/// or overlap, and sum_b M_ab over all of them is D_a to round-off. A quadratic or distorted facet's
+/// projected outline is a curve, of which the polygon takes the chords: Gauss points between the two lie just
+/// outside the master facet, where its shape functions go on.
 ///
 /// Derivatives are those of this very computation: dM/d(x_a, n_a, y_b).
 #pragma once
@@ -23,8 +25,8 @@
 namespace tribogel
 {
 
-/// The master's outline is first cut to the slave facet's, so many times as wide, in the coordinates of QuadFrame:
-/// points far from a distorted facet have no projection.
+/// The master's outline is first cut to the slave facet's, so many times as wide, in the coordinates of
+/// QuadFrame: points far from a distorted facet have no projection.
 inline constexpr double outline_margin = 1.1;
 
 namespace quad_mortar
@@ -161,13 +163,17 @@ private:
             const Vector2<double> arm = reach - frame(p.at);
             Row d = -normal.transpose() * frame.L * p.d;
             d.template head<3 * nodes>() += d_reach + arm[0] * d_along.row(1) - arm[1] * d_along.row(0);
-            for (int a = 0; a < nodes; ++a) d.template segment<3>(3 * a) -= normal.transpose() * frame.slope(p.at, a);
+            for (int a = 0; a < nodes; ++a)
+              d.template segment<3>(3 * a) -= normal.transpose() * frame.slope(p.at, a);
             return d;
           });
     }
   }
 
-  static double cross(const Vector2<double> &a, const Vector2<double> &b) { return a[0] * b[1] - a[1] * b[0]; }
+  static double cross(const Vector2<double> &a, const Vector2<double> &b)
+  {
+    return a[0] * b[1] - a[1] * b[0];
+  }
 
   static double area_of(const std::vector<Vertex> &vertices)
   {
@@ -189,7 +195,8 @@ private:
       for (int j = 0; j < 2; ++j) A.col(j) = tangent(shape.dN, pair.x, j) + g * tangent(shape.dN, pair.n, j);
       A.col(2) = normal;
       const Matrix3<double> inverse = A.inverse();
-      const Vector3<double> step = measured.limited(inverse * (place.at - interpolate(shape.N, pair.x) - g * normal));
+      const Vector3<double> step =
+          measured.limited(inverse * (place.at - interpolate(shape.N, pair.x) - g * normal));
       if (!step.allFinite()) return false;
       xi[0] += step[0];
       xi[1] += step[1];
@@ -250,7 +257,8 @@ private:
 } // namespace quad_mortar
 
 template <int order>
-QuadPairMortar<order> quad_pair_mortar(const QuadMeasure<order> &slave, const QuadPair<order> &pair, bool derivatives)
+QuadPairMortar<order> quad_pair_mortar(const QuadMeasure<order> &slave, const QuadPair<order> &pair,
+                                       bool derivatives)
 {
   return quad_mortar::Kernel<order>(slave, pair, derivatives).integrate();
 }

@@ -1,5 +1,5 @@
-/// Averaged nodal normals of the slave surface: the unit normals of a node's facets, there, added and normalised. At
-/// the surface's edge only its own facets count.
+/// Averaged nodal normals of the slave surface: the unit normals of a node's facets, there, added and
+/// normalised. At the surface's edge only its own facets count.
 #pragma once
 
 #include "tribogel/contact/quad_facet.hpp"
@@ -7,8 +7,8 @@
 namespace tribogel
 {
 
-/// A nodal normal, zero where the node has no facet; if asked for, its derivatives with respect to the positions of the
-/// nodes of its facets.
+/// A nodal normal, zero where the node has no facet; if asked for, its derivatives with respect to the
+/// positions of the nodes of its facets.
 struct QuadNormal {
   Vector3<double> n = Vector3<double>::Zero();
   std::vector<std::pair<int, Matrix3<double>>> d; ///< (node, dn/dx) [1/mm]
@@ -25,12 +25,13 @@ namespace quad_normals
 {
 
 template <int order>
-void add_facet(const QuadSurface &surface, const QuadSurface::FacetNode &at, const std::vector<Vector3<double>> &x,
-               bool with_derivative, QuadNormal &sum)
+void add_facet(const QuadSurface &surface, const QuadSurface::FacetNode &at,
+               const std::vector<Vector3<double>> &x, bool with_derivative, QuadNormal &sum)
 {
   const auto shape = tensor_shape<2, order>(quad_corner<order>(at.local));
   const QuadPoints<order> points = surface.on_facet<order>(at.facet, x);
-  const Vector3<double> t1 = tangent(shape.dN, points, 0), t2 = tangent(shape.dN, points, 1), c = t1.cross(t2);
+  const Vector3<double> t1 = tangent(shape.dN, points, 0), t2 = tangent(shape.dN, points, 1),
+                        c = t1.cross(t2);
   const double length = c.norm();
   const Vector3<double> unit = c / length;
   sum.n += unit;

@@ -1,9 +1,10 @@
-/// The integrand of the mortar integrals of a pair of facets in space at one point of the slave facet, with its
-/// derivatives:
+/// The integrand of the mortar integrals of a pair of facets in space at one point of the slave facet, with
+/// its derivatives:
 ///
 ///     psi_a(xi) N_b(eta) J(xi),     x(xi) + g n(xi) = y(eta)
 ///
-/// with J the reference weight and n(xi) = sum N_a n_a (THEORY, section 3.7). Whoever chooses the points sums it up.
+/// with J the reference weight and n(xi) = sum N_a n_a (THEORY, section 3.7). Whoever chooses the points sums
+/// it up.
 #pragma once
 
 #include "tribogel/contact/quad_facet.hpp"
@@ -28,8 +29,8 @@ template <int order> struct QuadPairMortar {
   double covered = 0;        ///< area in xi: 4 when summed over the master surface
   double overhang = 0;       ///< reference area beyond the master's edge [mm^2]
   Matrix M = Matrix::Zero(); ///< [slave node][master node] [mm^2]
-  /// dM, row a nodes + b; columns: slave positions, normals, master positions, three components each. Empty unless
-  /// asked for.
+  /// dM, row a nodes + b; columns: slave positions, normals, master positions, three components each. Empty
+  /// unless asked for.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> dM;
 };
 
@@ -41,9 +42,9 @@ constexpr double projection_tolerance = 1e-9; ///< of the last step; what is lef
 constexpr int most_iterations = 30;
 constexpr double longest_step = 0.5; ///< where half a facet has length 1
 
-/// The measure of Newton's steps in a facet's xi: half its longer extent has length 1 in either direction. Over a facet
-/// that is long and narrow a small way leads across many of its widths, and round-off is a part of its width that is
-/// as many times larger.
+/// The measure of Newton's steps in a facet's xi: half its longer extent has length 1 in either direction.
+/// Over a facet that is long and narrow a small way leads across many of its widths, and round-off is a part
+/// of its width that is as many times larger.
 template <int order> class StepMeasure
 {
 public:
@@ -104,7 +105,8 @@ public:
       Matrix3<double> A;
       A << place.t1.template head<3>(), place.t2.template head<3>(), -normal;
       const Matrix3<double> inverse = A.inverse();
-      const Vector3<double> step = measured.limited(inverse * (point + at.g * normal - place.y.template head<3>()));
+      const Vector3<double> step =
+          measured.limited(inverse * (point + at.g * normal - place.y.template head<3>()));
       if (!step.allFinite()) return at;
       at.eta[0] += step[0];
       at.eta[1] += step[1];
@@ -120,8 +122,8 @@ public:
     return at;
   }
 
-  /// Adds a row to the samples: all that sums of the integrand times `weight` are made of, or of its values only.
-  /// Returns the weight if the point is beyond the master's edge [mm^2].
+  /// Adds a row to the samples: all that sums of the integrand times `weight` are made of, or of its values
+  /// only. Returns the weight if the point is beyond the master's edge [mm^2].
   double sample(const Meeting &at, double weight, bool with_derivatives, Samples<order> &out) const
   {
     const int q = out.count++;
@@ -179,15 +181,18 @@ private:
     return at;
   }
 
-  /// How N follows the position of the meeting point, what that follows, and both when the point moves along xi.
+  /// How N follows the position of the meeting point, what that follows, and both when the point moves along
+  /// xi.
   void sample_inputs(const Meeting &at, double W, int q, Samples<order> &out) const
   {
     Eigen::Matrix<double, 3, 2> along;
-    for (int j = 0; j < 2; ++j) along.col(j) = tangent(at.slave.dN, pair.x, j) + at.g * tangent(at.slave.dN, pair.n, j);
+    for (int j = 0; j < 2; ++j)
+      along.col(j) = tangent(at.slave.dN, pair.x, j) + at.g * tangent(at.slave.dN, pair.n, j);
     const Eigen::Matrix2d moved = at.slope * along;
     for (int b = 0; b < nodes; ++b) {
       for (int i = 0; i < 3; ++i)
-        out.by_x(q, 3 * b + i) = W * (at.master.dN[b][0] * at.slope(0, i) + at.master.dN[b][1] * at.slope(1, i));
+        out.by_x(q, 3 * b + i) =
+            W * (at.master.dN[b][0] * at.slope(0, i) + at.master.dN[b][1] * at.slope(1, i));
       for (int j = 0; j < 2; ++j)
         out.d_N[j](q, b) = at.master.dN[b][0] * moved(0, j) + at.master.dN[b][1] * moved(1, j);
       out.slave(q, b) = at.slave.N[b];

@@ -19,8 +19,8 @@ template <int order> Vector3<double> nearest_point(const QuadPoints<order> &face
   return interpolate(quad_shape<order>({std::clamp(l[0], -1.0, 1.0), std::clamp(l[1], -1.0, 1.0)}).N, facet);
 }
 
-/// How many times as wide as the facet the part of the master is that the normals at its nodes meet, taken as a plane
-/// through c with the normal m.
+/// How many times as wide as the facet the part of the master is that the normals at its nodes meet, taken as
+/// a plane through c with the normal m.
 template <int order>
 double width_met(const QuadPoints<order> &facet, const Vector3<double> &c, const Vector3<double> &m)
 {
@@ -39,8 +39,8 @@ double width_met(const QuadPoints<order> &facet, const Vector3<double> &c, const
   return std::min(width, widest);
 }
 
-/// Whether a wall's facet leans over the master and is within its own extent (the smaller one) of it, measured along
-/// its normal, and the width of its neighbourhood.
+/// Whether a wall's facet leans over the master and is within its own extent (the smaller one) of it,
+/// measured along its normal, and the width of its neighbourhood.
 template <int order>
 std::pair<bool, double> may_touch(const QuadPoints<order> &facet, const QuadSurface &master,
                                   const std::vector<Vector3<double>> &y, const quad_search::Tree &tree)
@@ -71,8 +71,8 @@ std::pair<bool, double> may_touch(const QuadPoints<order> &facet, const QuadSurf
 }
 } // namespace quad_rolling
 
-/// Those of the facets marked that are connected with the crease by sides that marked facets share. `on_crease` marks
-/// nodes.
+/// Those of the facets marked that are connected with the crease by sides that marked facets share.
+/// `on_crease` marks nodes.
 inline std::vector<bool> connected_to_crease(const QuadSurface &wall, const std::vector<bool> &on_crease,
                                              const std::vector<bool> &marked)
 {
@@ -84,7 +84,8 @@ inline std::vector<bool> connected_to_crease(const QuadSurface &wall, const std:
     for (int side = 0; side < 4; ++side) {
       const std::vector<int> edge = wall.nodes_along(side);
       meeting[wall.ends(f, side)].push_back(f);
-      const bool at_crease = std::all_of(edge.begin(), edge.end(), [&](int b) { return on_crease[wall.facets[f][b]]; });
+      const bool at_crease =
+          std::all_of(edge.begin(), edge.end(), [&](int b) { return on_crease[wall.facets[f][b]]; });
       if (!at_crease || connected[f]) continue;
       connected[f] = true;
       front.push_back(f);
@@ -109,8 +110,8 @@ struct RollingFacets {
   std::vector<double> neighbourhood;
 };
 
-/// The facets that lean over the master, are near it and connected with the crease. Positions as SolidContact places
-/// them.
+/// The facets that lean over the master, are near it and connected with the crease. Positions as SolidContact
+/// places them.
 inline RollingFacets rolling_facets(const QuadSurface &wall, const std::vector<Vector3<double>> &x,
                                     const std::vector<bool> &on_crease, const QuadSurface &master,
                                     const std::vector<Vector3<double>> &y)
@@ -118,8 +119,9 @@ inline RollingFacets rolling_facets(const QuadSurface &wall, const std::vector<V
   const quad_search::Tree tree = quad_search::tree_of(master, y);
   RollingFacets rolling;
   for (int f = 0; f < wall.facet_count(); ++f) {
-    const auto [touches, width] = wall.order == 1 ? quad_rolling::may_touch<1>(wall.on_facet<1>(f, x), master, y, tree)
-                                                  : quad_rolling::may_touch<2>(wall.on_facet<2>(f, x), master, y, tree);
+    const auto [touches, width] = wall.order == 1
+                                      ? quad_rolling::may_touch<1>(wall.on_facet<1>(f, x), master, y, tree)
+                                      : quad_rolling::may_touch<2>(wall.on_facet<2>(f, x), master, y, tree);
     rolling.touch.push_back(touches);
     rolling.neighbourhood.push_back(width);
   }

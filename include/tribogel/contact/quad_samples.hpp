@@ -1,6 +1,6 @@
-/// The integrand of the mortar integrals at several points, as the factors of which all sums over points are made:
-/// products of matrices with a row for each point. Point by point the derivatives (52 kB at order 2) would go through
-/// the cache at each.
+/// The integrand of the mortar integrals at several points, as the factors of which all sums over points are
+/// made: products of matrices with a row for each point. Point by point the derivatives (52 kB at order 2)
+/// would go through the cache at each.
 #pragma once
 
 #include "tribogel/element/shape.hpp"
@@ -33,8 +33,8 @@ template <int order> struct Samples {
   }
 };
 
-/// dM / d(slave positions, normals, master positions) of points that do not move: sum_q psi_a dN_b/dx_i input_c, with
-/// psi = A N; products of two of the slave's shape functions are symmetric, and summed up once.
+/// dM / d(slave positions, normals, master positions) of points that do not move: sum_q psi_a dN_b/dx_i
+/// input_c, with psi = A N; products of two of the slave's shape functions are symmetric, and summed up once.
 template <int order> class SampleSlopes
 {
 public:
@@ -59,7 +59,8 @@ public:
   /// Adds the sum to dM, as in QuadPairMortar.
   template <class Slope> void add_to(const Eigen::Matrix<double, nodes, nodes> &A, Slope &dM) const
   {
-    Eigen::Matrix<double, nodes, 9 * nodes * nodes, Eigen::RowMajor> by_slave; // N in place of psi; columns b, input, i
+    Eigen::Matrix<double, nodes, 9 * nodes * nodes, Eigen::RowMajor>
+        by_slave; // N in place of psi; columns b, input, i
     for (int a = 0; a < nodes; ++a)
       for (int c = 0; c < nodes; ++c) {
         const int high = std::max(a, c), place = start(high) + std::min(a, c);
@@ -77,11 +78,13 @@ public:
 private:
   static constexpr int start(int a) { return a * (a + 1) + nodes * a; }
   static constexpr int columns = start(nodes);
-  typename Samples<order>::template Rows<columns> product; ///< of two factors; of slave node a from start(a) on
-  Eigen::Matrix<double, columns, 3 * nodes> sum;           ///< by dN_b/dx_i: column 3 b + i
+  typename Samples<order>::template Rows<columns>
+      product;                                   ///< of two factors; of slave node a from start(a) on
+  Eigen::Matrix<double, columns, 3 * nodes> sum; ///< by dN_b/dx_i: column 3 b + i
 };
 
-/// dM / d xi of a triangle's corners, with which its points move in proportion to their barycentric coordinates.
+/// dM / d xi of a triangle's corners, with which its points move in proportion to their barycentric
+/// coordinates.
 template <int order> class CornerSlopes
 {
 public:
@@ -89,7 +92,8 @@ public:
   using ByXi = Eigen::Matrix<double, nodes * nodes, 2, Eigen::RowMajor>;
   using Shares = typename Samples<order>::template Rows<3>;
 
-  void add(const Samples<order> &at, const Shares &share, double weight, const std::array<ByXi *, 3> &by_corner)
+  void add(const Samples<order> &at, const Shares &share, double weight,
+           const std::array<ByXi *, 3> &by_corner)
   {
     for (int c = 0; c < 3; ++c)
       for (int j = 0; j < 2; ++j)

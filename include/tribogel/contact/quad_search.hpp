@@ -1,5 +1,5 @@
-/// Candidate pairs of facets of two surfaces in space, from a bounding-volume tree (Boost.Geometry) over the master's
-/// facets.
+/// Candidate pairs of facets of two surfaces in space, from a bounding-volume tree (Boost.Geometry) over the
+/// master's facets.
 #pragma once
 
 #include "tribogel/contact/quad_facet.hpp"
@@ -60,12 +60,13 @@ inline Tree tree_of(const QuadSurface &surface, const std::vector<Vector3<double
 }
 } // namespace quad_search
 
-/// Pairs (slave facet, master facet) that may meet along the slave's nodal normals n, sorted. Each slave facet's box is
-/// swept along its normals to and fro by the way to the master (where they meet the plane of the nearest facet, and its
-/// distance at least) and half its own size, and widened by `margin` [mm]:
-/// the pairs found stay sufficient while the surfaces slide by less than that. More pairs than needed cost little; the
-/// mortar integrals tell when the master facets found do not cover a slave facet.
-inline std::vector<std::pair<int, int>> candidate_pairs(const QuadSurface &slave, const std::vector<Vector3<double>> &x,
+/// Pairs (slave facet, master facet) that may meet along the slave's nodal normals n, sorted. Each slave
+/// facet's box is swept along its normals to and fro by the way to the master (where they meet the plane of
+/// the nearest facet, and its distance at least) and half its own size, and widened by `margin` [mm]: the
+/// pairs found stay sufficient while the surfaces slide by less than that. More pairs than needed cost
+/// little; the mortar integrals tell when the master facets found do not cover a slave facet.
+inline std::vector<std::pair<int, int>> candidate_pairs(const QuadSurface &slave,
+                                                        const std::vector<Vector3<double>> &x,
                                                         const std::vector<Vector3<double>> &n,
                                                         const QuadSurface &master,
                                                         const std::vector<Vector3<double>> &y, double margin)
@@ -96,7 +97,8 @@ inline std::vector<std::pair<int, int>> candidate_pairs(const QuadSurface &slave
       quad_search::extend(box, x[node] - reach * n[node]);
     }
     quad_search::inflate(box, margin);
-    for (auto it = tree.qbegin(index::intersects(box)); it != tree.qend(); ++it) pairs.emplace_back(f, it->second);
+    for (auto it = tree.qbegin(index::intersects(box)); it != tree.qend(); ++it)
+      pairs.emplace_back(f, it->second);
   }
   std::sort(pairs.begin(), pairs.end());
   return pairs;

@@ -18,8 +18,8 @@ enum class MortarStatus {
 struct MortarReport {
   MortarStatus status = MortarStatus::ok; ///< of the first slave facet that failed
   std::vector<int> failed;                ///< slave facets, ascending
-  /// Reference length or area of slave beyond the master's edge [mm or mm^2], each facet counted once over all ranges
-  /// of nodes.
+  /// Reference length or area of slave beyond the master's edge [mm or mm^2], each facet counted once over
+  /// all ranges of nodes.
   double overhang = 0;
 
   void add_failure(MortarStatus why, int facet)
@@ -29,14 +29,14 @@ struct MortarReport {
   }
 };
 
-/// Where a node of a surface is, about the axis of its body's plate and in the frame that turns with it: (r [mm], theta
-/// [rad], z [mm]).
+/// Where a node of a surface is, about the axis of its body's plate and in the frame that turns with it: (r
+/// [mm], theta [rad], z [mm]).
 struct SurfacePlace {
   Vector3<double> reference, current;
 };
 
-/// What observers want to know of a slave node. Vectors are in the node's own frame (r, theta, z). NaN where no
-/// multiplier is carried.
+/// What observers want to know of a slave node. Vectors are in the node's own frame (r, theta, z). NaN where
+/// no multiplier is carried.
 struct NodeResult {
   bool carries;
   ContactStatus status;
@@ -49,14 +49,15 @@ struct NodeResult {
   Vector3<double> normal;          ///< unit, out of the slave
 };
 
-/// One slave node's contribution. Columns: the unknowns of each slave node, of each master node, then the multiplier of
-/// node a; rows: the unknowns of the first `slave_rows` slave nodes (a itself, and the crease node tied to it), of each
-/// master node, then the conditions.
+/// One slave node's contribution. Columns: the unknowns of each slave node, of each master node, then the
+/// multiplier of node a; rows: the unknowns of the first `slave_rows` slave nodes (a itself, and the crease
+/// node tied to it), of each master node, then the conditions.
 struct NodeBlock {
   std::vector<int> slave_nodes, master_nodes;
   int slave_rows = 1;       ///< 2 where the multiplier is extended to a crease
   Eigen::VectorXd residual; ///< [N]
-  Eigen::MatrixXd jacobian; ///< with d rate / d u = shift; axisymmetric only, after update(derivatives = true)
+  Eigen::MatrixXd
+      jacobian; ///< with d rate / d u = shift; axisymmetric only, after update(derivatives = true)
   ContactStatus status;
 };
 

@@ -1,10 +1,10 @@
 /// Which part of a body's side wall may touch the other body.
 ///
-/// The wall stands on the lower face at an edge, the crease, where the two make a right angle in the undeformed body:
-/// it is a slave curve of its own, without a common normal at the edge. It starts at the crease and its facets roll
-/// onto the master one after the other as the wall bulges. A facet that stands upright has no sensible projection on
-/// the master, and one that is far from it no need of one: only the first facets, as long as they lean over and are
-/// near, are tested for contact.
+/// The wall stands on the lower face at an edge, the crease, where the two make a right angle in the
+/// undeformed body: it is a slave curve of its own, without a common normal at the edge. It starts at the
+/// crease and its facets roll onto the master one after the other as the wall bulges. A facet that stands
+/// upright has no sensible projection on the master, and one that is far from it no need of one: only the
+/// first facets, as long as they lean over and are near, are tested for contact.
 #pragma once
 
 #include "tribogel/contact/axisymmetric_state.hpp"
@@ -16,10 +16,10 @@
 namespace tribogel
 {
 
-/// A facet leans over the master while -n_s . n_m exceeds this: it encloses less than 60 degrees with the master. A
-/// soft gel stuck on a stiff one and pressed to 40 % of its height (8 and 12 elements, gradings 4 and 20) gave the same
-/// N to 1e-4 with the limits 0.2 and 0.5; with 0.2 the coarse meshes failed on projections of facets that stood too
-/// steep.
+/// A facet leans over the master while -n_s . n_m exceeds this: it encloses less than 60 degrees with the
+/// master. A soft gel stuck on a stiff one and pressed to 40 % of its height (8 and 12 elements, gradings 4
+/// and 20) gave the same N to 1e-4 with the limits 0.2 and 0.5; with 0.2 the coarse meshes failed on
+/// projections of facets that stood too steep.
 inline constexpr double least_facing = 0.5;
 
 namespace rolling
@@ -33,11 +33,11 @@ inline double distance(const PlanePoint<double> &p, const PlanePoint<double> &a,
 }
 } // namespace rolling
 
-/// Number of wall facets, counted from the crease, that lean over the master and whose nearer end is within their own
-/// length of it, measured along their normal. Curves as for AxisymmetricContact; the wall is ordered from the crease
-/// upwards.
-inline int rolling_facets(const LineChain &wall, const std::vector<PlanePoint<double>> &x, const LineChain &master,
-                          const std::vector<PlanePoint<double>> &y)
+/// Number of wall facets, counted from the crease, that lean over the master and whose nearer end is within
+/// their own length of it, measured along their normal. Curves as for AxisymmetricContact; the wall is
+/// ordered from the crease upwards.
+inline int rolling_facets(const LineChain &wall, const std::vector<PlanePoint<double>> &x,
+                          const LineChain &master, const std::vector<PlanePoint<double>> &y)
 {
   int count = 0;
   for (; count < wall.facet_count(); ++count) {
@@ -45,9 +45,10 @@ inline int rolling_facets(const LineChain &wall, const std::vector<PlanePoint<do
     const PlanePoint<double> along = x[facet[1]] - x[facet[0]], n = normal_of(along);
     double nearest = std::numeric_limits<double>::infinity(), facing = 0;
     for (const auto &m : master.facets) {
-      const PlanePoint<double> down = normal_of(y[m[1]] - y[m[0]]); // into the master: its curve runs outwards
-      const double d =
-          std::min(rolling::distance(x[facet[0]], y[m[0]], y[m[1]]), rolling::distance(x[facet[1]], y[m[0]], y[m[1]]));
+      const PlanePoint<double> down =
+          normal_of(y[m[1]] - y[m[0]]); // into the master: its curve runs outwards
+      const double d = std::min(rolling::distance(x[facet[0]], y[m[0]], y[m[1]]),
+                                rolling::distance(x[facet[1]], y[m[0]], y[m[1]]));
       if (d < nearest) nearest = d, facing = dot(n, down);
     }
     if (!(facing > least_facing) || nearest > facing * length(along)) break;

@@ -1,4 +1,5 @@
-/// Candidate facet pairs of two meridian curves, from a bounding-volume tree (Boost.Geometry) over the master's facets.
+/// Candidate facet pairs of two meridian curves, from a bounding-volume tree (Boost.Geometry) over the
+/// master's facets.
 #pragma once
 
 #include "tribogel/contact/line_facet.hpp"
@@ -36,20 +37,20 @@ inline Box facet_box(const LineChain &chain, int f, const std::vector<PlanePoint
 inline void inflate(Box &box, double by)
 {
   using boost::geometry::get;
-  box = Box(Corner(get<0, 0>(box) - by, get<0, 1>(box) - by), Corner(get<1, 0>(box) + by, get<1, 1>(box) + by));
+  box =
+      Box(Corner(get<0, 0>(box) - by, get<0, 1>(box) - by), Corner(get<1, 0>(box) + by, get<1, 1>(box) + by));
 }
 } // namespace search
 
-/// Pairs (slave facet, master facet) that the mortar integrals need, sorted: for each slave facet an unbroken run of
-/// master facets that covers it along its nodal normals n, up to the master's edges. The tree gives the facets within
-/// the slave facet's box swept to the master's distance; the run is then extended until the normals at both ends of the
-/// slave facet are passed, so that no reach has to be guessed. `margin` [mm] widens the box: the pairs found stay
-/// sufficient while the surfaces slide by less than that.
-inline std::vector<std::pair<int, int>> candidate_pairs(const LineChain &slave,
-                                                        const std::vector<PlanePoint<double>> &x,
-                                                        const std::vector<PlanePoint<double>> &n,
-                                                        const LineChain &master,
-                                                        const std::vector<PlanePoint<double>> &y, double margin)
+/// Pairs (slave facet, master facet) that the mortar integrals need, sorted: for each slave facet an unbroken
+/// run of master facets that covers it along its nodal normals n, up to the master's edges. The tree gives
+/// the facets within the slave facet's box swept to the master's distance; the run is then extended until the
+/// normals at both ends of the slave facet are passed, so that no reach has to be guessed. `margin` [mm]
+/// widens the box: the pairs found stay sufficient while the surfaces slide by less than that.
+inline std::vector<std::pair<int, int>>
+candidate_pairs(const LineChain &slave, const std::vector<PlanePoint<double>> &x,
+                const std::vector<PlanePoint<double>> &n, const LineChain &master,
+                const std::vector<PlanePoint<double>> &y, double margin)
 {
   namespace index = boost::geometry::index;
   std::vector<std::pair<search::Box, int>> boxes;
@@ -72,7 +73,8 @@ inline std::vector<std::pair<int, int>> candidate_pairs(const LineChain &slave,
       first = std::min(first, it->second);
       last = std::max(last, it->second);
     }
-    // y lies beyond the normal line of the slave's end (0 inner, 1 outer), seen in the direction of increasing R
+    // y lies beyond the normal line of the slave's end (0 inner, 1 outer), seen in the direction of
+    // increasing R
     const auto outside = [&](int end, const PlanePoint<double> &point, double slack) {
       const int node = slave.facets[f][end];
       const double ahead = -cross(point - x[node], n[node]);

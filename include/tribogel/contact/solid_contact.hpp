@@ -1,21 +1,23 @@
-/// The contact operator of two bodies in space: slave surface (lower face of the top body) on master surface (upper
-/// face of the bottom body), each in the frame of its plate. Everything is evaluated in the slave's frame, which turns
-/// with the top plate about its axis (THEORY, section 3.7):
+/// The contact operator of two bodies in space: slave surface (lower face of the top body) on master surface
+/// (upper face of the bottom body), each in the frame of its plate. Everything is evaluated in the slave's
+/// frame, which turns with the top plate about its axis (THEORY, section 3.7):
 ///
-///     x = X + u + travel e_z,    y = R (X + u) - Q_s^T c,    R = Q_s^T Q_m,    Q the plates' rotations, c the axis
+///     x = X + u + travel e_z,    y = R (X + u) - Q_s^T c,    R = Q_s^T Q_m,    Q the plates' rotations, c
+///     the axis
 ///
-/// With D = D_a and M_m = M_am, constant lambda in this frame where nothing changes (next to a crease x, du/dt and D
-/// are those of two nodes, THEORY, section 3.6):
+/// With D = D_a and M_m = M_am, constant lambda in this frame where nothing changes (next to a crease x,
+/// du/dt and D are those of two nodes, THEORY, section 3.6):
 ///
 ///     gap = n . (sum_m M_m y_m / D - x)
-///     v   = (Omega_s - Omega_m) e_z x x - Omega_m e_z x Q_s^T c + du/dt + travel rate - sum_m M_m R du_m/dt / D
-///     residual rows (internal minus external force):  slave -D lambda,  master +M_m R^T lambda,  condition D C
+///     v   = (Omega_s - Omega_m) e_z x x - Omega_m e_z x Q_s^T c + du/dt + travel rate - sum_m M_m R du_m/dt
+///     / D residual rows (internal minus external force):  slave -D lambda,  master +M_m R^T lambda,
+///     condition D C
 ///
-/// Both frames' velocities are taken at the slave's point: a common rotation is exactly no sliding, however far the
-/// plates turn.
+/// Both frames' velocities are taken at the slave's point: a common rotation is exactly no sliding, however
+/// far the plates turn.
 ///
-/// Each holds both surfaces whole, so any process can evaluate any of the slave nodes. The Jacobian comes facet by
-/// facet, as blocks that add up.
+/// Each holds both surfaces whole, so any process can evaluate any of the slave nodes. The Jacobian comes
+/// facet by facet, as blocks that add up.
 #pragma once
 
 #include "tribogel/contact/condition_slope.hpp"
@@ -44,7 +46,8 @@ public:
 
   const SolidGeometry &reference() const { return geometry; }
 
-  /// Sorted pairs of facets for `update`; they remain sufficient while the surfaces slide by less than margin [mm].
+  /// Sorted pairs of facets for `update`; they remain sufficient while the surfaces slide by less than margin
+  /// [mm].
   Pairs candidate_pairs(const ContactState<double> &state, double margin) const
   {
     const Placed at = place(state);
@@ -68,8 +71,8 @@ public:
   /// Residual of slave node a. Without a multiplier the row is lambda = 0.
   template <FrictionLaw<double> Law> void node(int a, const Law &law, NodeBlock &block) const;
 
-  /// d residual / d (u, lambda), with d rate / d u = shift, of the nodes given to update(derivatives = true), in blocks
-  /// for `emit`.
+  /// d residual / d (u, lambda), with d rate / d u = shift, of the nodes given to update(derivatives = true),
+  /// in blocks for `emit`.
   template <class Law, class Emit> void jacobian(const Law &law, const Emit &emit) const;
 
   /// Rows and columns of the blocks that `jacobian` can emit as long as `pairs` are sufficient.
@@ -98,7 +101,8 @@ public:
     return place_about_axis(geometry.master.X[b], at);
   }
 
-  // What both models' operators tell of the slave: a node's constants, the surface's size and that of a facet.
+  // What both models' operators tell of the slave: a node's constants, the surface's size and that of a
+  // facet.
   const SlaveNode &constants(int a) const { return geometry.nodes[a]; }
   double slave_size() const { return geometry.slave_area; } ///< [mm^2]
   double facet_size() const
@@ -199,16 +203,20 @@ private:
     for (const auto &[b, D] : shares(a)) sum += D / geometry.nodes[a].weight() * field[b];
     return sum;
   }
-  ContactScale scale_of(int a) const { return {geometry.nodes[a].c_N, geometry.nodes[a].c_N / now.stick_rate}; }
+  ContactScale scale_of(int a) const
+  {
+    return {geometry.nodes[a].c_N, geometry.nodes[a].c_N / now.stick_rate};
+  }
   using Slope = Eigen::Matrix<double, 3, 11>; ///< of the condition, as condition_slope gives it
-  template <class Emit> void emit_node(int a, const NodeContact &contact, const Slope &slope, const Emit &emit) const;
+  template <class Emit>
+  void emit_node(int a, const NodeContact &contact, const Slope &slope, const Emit &emit) const;
   template <class Emit> void emit_facet(int f, const std::vector<Slope> &slope, const Emit &emit) const;
   struct FacetUnknowns;
   FacetUnknowns unknowns_of(int f, int first, int last, const std::vector<int> &master_facets) const;
 };
 
-inline MortarReport SolidContact::update(const ContactState<double> &state, const Pairs &pairs, bool derivatives,
-                                         int first, int last)
+inline MortarReport SolidContact::update(const ContactState<double> &state, const Pairs &pairs,
+                                         bool derivatives, int first, int last)
 {
   const QuadSurface &surface = geometry.slave_surface;
   now = state;
@@ -216,7 +224,8 @@ inline MortarReport SolidContact::update(const ContactState<double> &state, cons
   first_node = first;
   last_node = last < 0 ? surface.node_count() : last;
   normal.clear();
-  for (int a = 0; a < surface.node_count(); ++a) normal.push_back(quad_normal(surface, a, placed.x, derivatives));
+  for (int a = 0; a < surface.node_count(); ++a)
+    normal.push_back(quad_normal(surface, a, placed.x, derivatives));
   facets.assign(static_cast<std::size_t>(surface.facet_count()), {});
   MortarReport report;
   for (int f = 0; f < surface.facet_count(); ++f) {
@@ -236,8 +245,8 @@ inline MortarReport SolidContact::update(const ContactState<double> &state, cons
 }
 
 template <int order>
-void SolidContact::integrate(int f, std::span<const std::pair<int, int>> pairs, bool derivatives, MortarReport &report,
-                             double &overhang)
+void SolidContact::integrate(int f, std::span<const std::pair<int, int>> pairs, bool derivatives,
+                             MortarReport &report, double &overhang)
 {
   constexpr double coverage_tolerance = 1e-8; // of the square's area 4
   const auto &measure = std::get<std::vector<QuadMeasure<order>>>(geometry.measures)[f];
@@ -293,7 +302,8 @@ inline SolidContact::NodeContact SolidContact::contact_of(int a, bool with_area,
   const Vector3<double> x = mean(a, placed.x);
   contact.arm = -x;
   contact.velocity = mean(a, now.slave.rate);
-  contact.velocity += Vector3<double>(-spin * x[1], spin * x[0], now.slave.travel_rate - now.master.travel_rate);
+  contact.velocity +=
+      Vector3<double>(-spin * x[1], spin * x[0], now.slave.travel_rate - now.master.travel_rate);
   contact.velocity += now.master.rotation_rate * Vector3<double>(-placed.shift[1], placed.shift[0], 0);
   Vector3<double> master_rate = Vector3<double>::Zero();
   for (std::size_t k = 0; k < contact.masters.size(); ++k) {
@@ -322,14 +332,16 @@ template <FrictionLaw<double> Law> void SolidContact::node(int a, const Law &law
   const auto condition = contact_condition<double>(point_of(a, contact), scale_of(a), law);
   const Vector3<double> on_master = placed.R.transpose() * lambda;
   const auto on = shares(a);
-  const auto slaves = static_cast<Eigen::Index>(on.size()), masters = static_cast<Eigen::Index>(contact.masters.size());
+  const auto slaves = static_cast<Eigen::Index>(on.size()),
+             masters = static_cast<Eigen::Index>(contact.masters.size());
   if (slaves == 2) block.slave_nodes.push_back(on[1].first);
   block.slave_rows = static_cast<int>(slaves);
   block.master_nodes = contact.masters;
   block.status = condition.status;
   block.residual.resize(3 * (slaves + masters + 1));
   for (Eigen::Index k = 0; k < slaves; ++k) block.residual.segment<3>(3 * k) = -on[k].second * lambda;
-  for (Eigen::Index k = 0; k < masters; ++k) block.residual.segment<3>(3 * (slaves + k)) = contact.M[k] * on_master;
+  for (Eigen::Index k = 0; k < masters; ++k)
+    block.residual.segment<3>(3 * (slaves + k)) = contact.M[k] * on_master;
   block.residual.tail<3>() = constants.weight() * condition.residual;
 }
 

@@ -1,5 +1,5 @@
-/// What of the contact of two bodies in space does not change during a run: reference surfaces, weights, scales of the
-/// slave nodes.
+/// What of the contact of two bodies in space does not change during a run: reference surfaces, weights,
+/// scales of the slave nodes.
 #pragma once
 
 #include "tribogel/contact/quad_facet.hpp"
@@ -14,20 +14,23 @@ namespace tribogel
 {
 
 struct SolidParameters {
-  int order = 1;                             ///< of the facets of both surfaces, 1 or 2
-  double softer_modulus = 1;                 ///< shear modulus of the softer body, for the scale c_N [MPa]
-  std::vector<bool> carries_multiplier = {}; ///< of each slave node, false where u is prescribed; empty: all true
-  bool exact_cells = true;                   ///< false: mortar integrals at the slave facets' own Gauss points
-  std::vector<bool> left_out = {};           ///< of each slave facet: it cannot touch; empty: all can
-  /// Slave nodes at an edge that belong to another slave surface: they have no multiplier here, and their neighbours'
-  /// basis functions are extended to them. Empty: none.
+  int order = 1;             ///< of the facets of both surfaces, 1 or 2
+  double softer_modulus = 1; ///< shear modulus of the softer body, for the scale c_N [MPa]
+  std::vector<bool> carries_multiplier =
+      {};                          ///< of each slave node, false where u is prescribed; empty: all true
+  bool exact_cells = true;         ///< false: mortar integrals at the slave facets' own Gauss points
+  std::vector<bool> left_out = {}; ///< of each slave facet: it cannot touch; empty: all can
+  /// Slave nodes at an edge that belong to another slave surface: they have no multiplier here, and their
+  /// neighbours' basis functions are extended to them. Empty: none.
   std::vector<bool> on_crease = {};
   std::vector<double> neighbourhood = {}; ///< of each slave facet, as in QuadPair; empty: 1
 };
 
-/// A surface goes on beyond its edge, at each node there by half the longest of its sides that meet in that node:
-/// however narrow the edge's facets are, and by the same length for both facets that share the side which leads to it.
-inline std::vector<EdgeExtension> edge_extensions(const QuadSurface &surface, const std::vector<Vector3<double>> &X)
+/// A surface goes on beyond its edge, at each node there by half the longest of its sides that meet in that
+/// node: however narrow the edge's facets are, and by the same length for both facets that share the side
+/// which leads to it.
+inline std::vector<EdgeExtension> edge_extensions(const QuadSurface &surface,
+                                                  const std::vector<Vector3<double>> &X)
 {
   const auto length = [&](int f, int side) {
     const auto [a, b] = surface.ends(f, side);
@@ -70,8 +73,8 @@ struct SolidGeometry {
   SolidGeometry(QuadReference slave_face, QuadReference master_face, const SolidParameters &parameters)
       : slave(std::move(slave_face)), master(std::move(master_face)),
         slave_surface(slave.facets, parameters.order, static_cast<int>(slave.X.size()), parameters.left_out),
-        master_surface(master.facets, parameters.order, static_cast<int>(master.X.size())), nodes(slave.X.size()),
-        exact_cells(parameters.exact_cells), neighbourhood(parameters.neighbourhood),
+        master_surface(master.facets, parameters.order, static_cast<int>(master.X.size())),
+        nodes(slave.X.size()), exact_cells(parameters.exact_cells), neighbourhood(parameters.neighbourhood),
         beyond(edge_extensions(master_surface, master.X))
   {
     if (parameters.order == 1)
@@ -82,11 +85,13 @@ struct SolidGeometry {
 
 private:
   /// The shares of the crease's nodes go to the next row of nodes (THEORY, section 3.6).
-  template <int order> void extend_to_crease(int f, const std::vector<bool> &on_crease, QuadMeasure<order> &facet)
+  template <int order>
+  void extend_to_crease(int f, const std::vector<bool> &on_crease, QuadMeasure<order> &facet)
   {
     const auto &node = slave.facets[f];
     for (int side = 0; side < 4; ++side) {
-      const std::vector<int> edge = slave_surface.nodes_along(side), next = slave_surface.nodes_along(side, 1);
+      const std::vector<int> edge = slave_surface.nodes_along(side),
+                             next = slave_surface.nodes_along(side, 1);
       if (!std::all_of(edge.begin(), edge.end(), [&](int b) { return on_crease[node[b]]; })) continue;
       for (std::size_t k = 0; k < edge.size(); ++k) {
         SlaveNode &neighbour = nodes[node[next[k]]];

@@ -24,7 +24,8 @@ template <class Law, class Emit> void SolidContact::jacobian(const Law &law, con
     if (!facets[f].empty()) emit_facet(static_cast<int>(f), slope, emit);
 }
 
-/// What depends on the node's own unknowns, normal and multiplier, and on the masters with the mortar integrals fixed.
+/// What depends on the node's own unknowns, normal and multiplier, and on the masters with the mortar
+/// integrals fixed.
 template <class Emit>
 void SolidContact::emit_node(int a, const NodeContact &contact, const Slope &slope, const Emit &emit) const
 {
@@ -59,7 +60,8 @@ void SolidContact::emit_node(int a, const NodeContact &contact, const Slope &slo
   conditions.values.leftCols<3>() = slope.leftCols<3>();
   Eigen::Index column = 3;
   for (const auto &[b, D] : on) {
-    conditions.values.middleCols<3>(column) = D / weight * (by_velocity * own - by_gap * normal[a].n.transpose());
+    conditions.values.middleCols<3>(column) =
+        D / weight * (by_velocity * own - by_gap * normal[a].n.transpose());
     column += 3;
   }
   for (const auto &[b, d] : contact.area.d) {
@@ -80,7 +82,8 @@ void SolidContact::emit_node(int a, const NodeContact &contact, const Slope &slo
 
 /// What the mortar integrals of a slave facet connect.
 struct SolidContact::FacetUnknowns {
-  std::vector<ContactUnknown> around;      ///< slave nodes on which they depend: its own, then those of its normals
+  std::vector<ContactUnknown>
+      around; ///< slave nodes on which they depend: its own, then those of its normals
   std::vector<ContactUnknown> multipliers; ///< of its own nodes that are asked for
   std::vector<int> own;                    ///< local numbers of these nodes
   std::vector<ContactUnknown> masters;     ///< nodes of the master facets
@@ -124,15 +127,17 @@ inline SolidContact::FacetUnknowns SolidContact::unknowns_of(int f, int first, i
   for (int facet : master_facets) {
     all.place.emplace_back();
     for (int m = 0; m < nodes; ++m)
-      all.place.back().push_back(FacetUnknowns::place_among(all.masters, {Kind::master, other.facets[facet][m]}));
+      all.place.back().push_back(
+          FacetUnknowns::place_among(all.masters, {Kind::master, other.facets[facet][m]}));
   }
   return all;
 }
 
-/// What depends on the mortar integrals of slave facet f. With the derivative of M of each pair contracted with lambda
-/// (forces on the masters) and with the slopes of the conditions, all pairs' dependence on the slave's positions and
-/// normals is one block; that on the master's is one a pair.
-template <class Emit> void SolidContact::emit_facet(int f, const std::vector<Slope> &slope, const Emit &emit) const
+/// What depends on the mortar integrals of slave facet f. With the derivative of M of each pair contracted
+/// with lambda (forces on the masters) and with the slopes of the conditions, all pairs' dependence on the
+/// slave's positions and normals is one block; that on the master's is one a pair.
+template <class Emit>
+void SolidContact::emit_facet(int f, const std::vector<Slope> &slope, const Emit &emit) const
 {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const QuadSurface &surface = geometry.slave_surface;
@@ -140,7 +145,8 @@ template <class Emit> void SolidContact::emit_facet(int f, const std::vector<Slo
   std::vector<int> master_facets;
   for (const PairPart &part : facets[f]) master_facets.push_back(part.master);
   const FacetUnknowns is = unknowns_of(f, first_node, last_node, master_facets);
-  const auto masters = static_cast<Eigen::Index>(is.masters.size()), own = static_cast<Eigen::Index>(is.own.size());
+  const auto masters = static_cast<Eigen::Index>(is.masters.size()),
+             own = static_cast<Eigen::Index>(is.own.size());
   Matrix by_own = Matrix::Zero(3 * (masters + own), 6 * nodes); // by the facet's positions and normals
   for (std::size_t k = 0; k < facets[f].size(); ++k) {
     const PairPart &part = facets[f][k];
@@ -174,18 +180,22 @@ template <class Emit> void SolidContact::emit_facet(int f, const std::vector<Slo
   ContactBlock block;
   block.rows = is.rows();
   block.columns = is.around;
-  Matrix normals = Matrix::Zero(3 * nodes, 3 * static_cast<Eigen::Index>(is.around.size())); // by the positions
+  Matrix normals =
+      Matrix::Zero(3 * nodes, 3 * static_cast<Eigen::Index>(is.around.size())); // by the positions
   for (int b = 0; b < nodes; ++b)
     for (const auto &[c, d] : normal[surface.facets[f][b]].d) {
-      const auto column = std::find(is.around.begin(), is.around.end(), ContactUnknown{ContactUnknown::slave, c});
+      const auto column =
+          std::find(is.around.begin(), is.around.end(), ContactUnknown{ContactUnknown::slave, c});
       normals.block<3, 3>(3 * b, 3 * (column - is.around.begin())) += d;
     }
   block.values.noalias() = by_own.rightCols(3 * nodes) * normals;
-  block.values.leftCols(3 * nodes) += by_own.leftCols(3 * nodes); // `around` begins with the facet's own nodes
+  block.values.leftCols(3 * nodes) +=
+      by_own.leftCols(3 * nodes); // `around` begins with the facet's own nodes
   emit(block);
 }
 
-template <class Emit> void SolidContact::pattern(const Pairs &pairs, int first, int last, const Emit &emit) const
+template <class Emit>
+void SolidContact::pattern(const Pairs &pairs, int first, int last, const Emit &emit) const
 {
   using Kind = ContactUnknown;
   for (int a = first; a < last; ++a) {

@@ -23,11 +23,12 @@ template <class T> struct ContactState {
   SurfaceState<T> slave, master;
   std::vector<Vector3<T>>
       multiplier; ///< of each slave node: nominal traction on the slave [MPa]; 0 where none is carried
-  std::array<double, 2> slave_axis{}; ///< where the slave's plate turns about z, the master's about (0, 0) [mm]
-  double shift = 1;                   ///< d rate / d u of the time rule [1/s], for the Jacobian only
-  /// Sets c_T = c_N / stick_rate [1/s], say 1/dt. It is part of the equation: the residual and the Jacobian of one step
-  /// must be given the same value. 0 where the velocity is given: steady states of the
-  /// half plane.
+  std::array<double, 2>
+      slave_axis{}; ///< where the slave's plate turns about z, the master's about (0, 0) [mm]
+  double shift = 1; ///< d rate / d u of the time rule [1/s], for the Jacobian only
+  /// Sets c_T = c_N / stick_rate [1/s], say 1/dt. It is part of the equation: the residual and the Jacobian
+  /// of one step must be given the same value. 0 where the velocity is given: steady states of the half
+  /// plane.
   double stick_rate = 1;
 };
 

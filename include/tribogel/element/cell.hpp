@@ -12,8 +12,9 @@ namespace tribogel
 {
 
 /// Quadrilateral (dim 2) or hexahedral (dim 3) Lagrange cell of order k with (k+1)^dim Gauss points and the
-/// discontinuous polynomials P_(k-1) on which the dilatation is projected. Those are {1} or {1, (X_j - centre_j)/size}:
-/// polynomials of the reference position, not of the parent coordinates, so that they stay complete on skewed cells.
+/// discontinuous polynomials P_(k-1) on which the dilatation is projected. Those are {1} or {1, (X_j -
+/// centre_j)/size}: polynomials of the reference position, not of the parent coordinates, so that they stay
+/// complete on skewed cells.
 template <class Kinematics, int cell_order> struct Cell {
   static constexpr int dim = Kinematics::dim, order = cell_order;
   static constexpr int nodes = tensor_nodes<dim, order>, points = power(order + 1, dim);
@@ -29,11 +30,13 @@ template <class Kinematics, int cell_order> struct Cell {
   std::array<Point, points> point;
   Eigen::Matrix<double, modes, modes> inverse_mass; ///< of the modes, [1/mm^3]
 
-  /// Set up from the nodes' reference positions (lexicographic); false if the cell is degenerate or inside out.
+  /// Set up from the nodes' reference positions (lexicographic); false if the cell is degenerate or inside
+  /// out.
   bool set(const std::array<Position, nodes> &X);
 };
 
-template <class Kinematics, int cell_order> bool Cell<Kinematics, cell_order>::set(const std::array<Position, nodes> &X)
+template <class Kinematics, int cell_order>
+bool Cell<Kinematics, cell_order>::set(const std::array<Position, nodes> &X)
 {
   static const auto gauss = gauss_rule<order + 1>();
   Position centre{}, size{};

@@ -1,10 +1,10 @@
-/// Element residual and tangent of the three-field mean-dilatation formulation (Simo, Taylor and Pister), THEORY
-/// section 2.2, for any kinematics, order and material.
+/// Element residual and tangent of the three-field mean-dilatation formulation (Simo, Taylor and Pister),
+/// THEORY section 2.2, for any kinematics, order and material.
 ///
-/// The Jacobian J = det F is projected on the discontinuous polynomials P_(k-1) of the cell, theta = proj J, and the
-/// material (equilibrium and Maxwell parts alike) sees F~ = (theta/J)^(1/3) F. The pressure p = proj(tr tau~/(3 theta))
-/// follows in the element, so only displacements are unknowns. All is the gradient of one incremental potential: the
-/// tangent is symmetric.
+/// The Jacobian J = det F is projected on the discontinuous polynomials P_(k-1) of the cell, theta = proj J,
+/// and the material (equilibrium and Maxwell parts alike) sees F~ = (theta/J)^(1/3) F. The pressure p =
+/// proj(tr tau~/(3 theta)) follows in the element, so only displacements are unknowns. All is the gradient of
+/// one incremental potential: the tangent is symmetric.
 #pragma once
 
 #include "tribogel/element/cell.hpp"
@@ -35,12 +35,13 @@ public:
     T J[points], theta[points], pressure[points];
     Response<T> response[points];
 
-    /// For nodal unknowns U [mm] (node by node). `history` holds the internal variables at the points at t_n (points x
-    /// material.history_size()), `history_new`, if not null, receives those at t_(n+1). Nothing means anything unless
-    /// the status is ok. The material's scalar is T, or Lanes where T is double.
+    /// For nodal unknowns U [mm] (node by node). `history` holds the internal variables at the points at t_n
+    /// (points x material.history_size()), `history_new`, if not null, receives those at t_(n+1). Nothing
+    /// means anything unless the status is ok. The material's scalar is T, or Lanes where T is double.
     template <class Material>
-    PointStatus set(const Kinematics &kinematics, const CellType &cell, const Material &material, const Vector<T> &U,
-                    const T *history, StepWeights step, T *history_new, bool with_tangent);
+    PointStatus set(const Kinematics &kinematics, const CellType &cell, const Material &material,
+                    const Vector<T> &U, const T *history, StepWeights step, T *history_new,
+                    bool with_tangent);
 
     CellEnergy energy(const CellType &cell) const
     {
@@ -73,7 +74,8 @@ public:
   };
 
   /// Internal forces [N], node by node.
-  template <class T> static Vector<T> forces(const Kinematics &kinematics, const CellType &cell, const Evaluation<T> &s)
+  template <class T>
+  static Vector<T> forces(const Kinematics &kinematics, const CellType &cell, const Evaluation<T> &s)
   {
     Rows<T> rows;
     for (auto &row : rows) row.fill(T(0));
@@ -90,7 +92,8 @@ public:
   }
 
   /// Their consistent derivative with respect to the unknowns [N/mm], of an evaluation with tangent.
-  static void tangent(const Kinematics &kinematics, const CellType &cell, const Evaluation<double> &s, Matrix &K);
+  static void tangent(const Kinematics &kinematics, const CellType &cell, const Evaluation<double> &s,
+                      Matrix &K);
 
 private:
   using Point = typename CellType::Point;
@@ -98,8 +101,10 @@ private:
   static constexpr int inputs = static_cast<int>(input.size());
 
   template <class T> using Inputs = Eigen::Matrix<T, 1, inputs>;
-  template <class T> using Stack = Eigen::Matrix<T, 9, inputs, Eigen::RowMajor>; ///< 3x3 entries (3 i + j), by input
-  template <class T> using Rows = std::array<std::array<T, nodes>, unknowns>;    ///< one number a degree of freedom
+  template <class T>
+  using Stack = Eigen::Matrix<T, 9, inputs, Eigen::RowMajor>; ///< 3x3 entries (3 i + j), by input
+  template <class T>
+  using Rows = std::array<std::array<T, nodes>, unknowns>; ///< one number a degree of freedom
 
   template <class T> static Eigen::Matrix<T, 9, 1> stacked(const Matrix3<T> &A)
   {
@@ -145,7 +150,8 @@ private:
   }
 
   /// From numbers conjugate to the inputs to numbers conjugate to the nodes' unknowns.
-  template <class T, class Conjugate> static void add_rows(const Point &p, const Conjugate &conjugate, Rows<T> &rows)
+  template <class T, class Conjugate>
+  static void add_rows(const Point &p, const Conjugate &conjugate, Rows<T> &rows)
   {
     for_each<inputs>([&](auto k) {
       const T c = conjugate[k()];
@@ -155,10 +161,11 @@ private:
 
   using Curvature = Eigen::Matrix<double, inputs + 1, inputs + 1, Eigen::RowMajor>;
   using Rates = Eigen::Matrix<double, 9, inputs + 1, Eigen::RowMajor>;
-  static Curvature curvature(const Kinematics &kinematics, const Evaluation<double> &s, int q, const Rates &l);
+  static Curvature curvature(const Kinematics &kinematics, const Evaluation<double> &s, int q,
+                             const Rates &l);
 
-  /// [i][a][j][b]: the tangent, unknown by unknown, so that the loop over b is one of the processor's vectors. Only
-  /// i <= j is filled.
+  /// [i][a][j][b]: the tangent, unknown by unknown, so that the loop over b is one of the processor's
+  /// vectors. Only i <= j is filled.
   using Blocks = std::array<std::array<std::array<std::array<double, nodes>, unknowns>, nodes>, unknowns>;
   static void add_inputs(const Point &p, const Curvature &H, Blocks &K);
 };
@@ -166,10 +173,9 @@ private:
 template <class Kinematics, int order>
 template <class T>
 template <class Material>
-PointStatus MeanDilatation<Kinematics, order>::Evaluation<T>::set(const Kinematics &kinematics, const CellType &cell,
-                                                                  const Material &material, const Vector<T> &U,
-                                                                  const T *history, StepWeights step, T *history_new,
-                                                                  bool with_tangent)
+PointStatus MeanDilatation<Kinematics, order>::Evaluation<T>::set(
+    const Kinematics &kinematics, const CellType &cell, const Material &material, const Vector<T> &U,
+    const T *history, StepWeights step, T *history_new, bool with_tangent)
 {
   using std::cbrt;
   Matrix3<T> F[points]; // then F~
@@ -200,7 +206,8 @@ PointStatus MeanDilatation<Kinematics, order>::Evaluation<T>::set(const Kinemati
     if (!(theta[q] > 0)) return PointStatus::inverted;
     F[q] *= T(cbrt(theta[q] / J[q]));
   }
-  const PointStatus status = evaluate_points(material, points, F, history, step, history_new, with_tangent, response);
+  const PointStatus status =
+      evaluate_points(material, points, F, history, step, history_new, with_tangent, response);
   if (status != PointStatus::ok) return status;
   T s[points];
   for (int q = 0; q < points; ++q)
@@ -213,11 +220,11 @@ PointStatus MeanDilatation<Kinematics, order>::Evaluation<T>::set(const Kinemati
   return PointStatus::ok;
 }
 
-/// Second derivative of the incremental potential at one point with respect to the inputs and, last, ln theta, THEORY
-/// (2.6). The columns of `l` are the spatial velocity gradients that go with them.
+/// Second derivative of the incremental potential at one point with respect to the inputs and, last, ln
+/// theta, THEORY (2.6). The columns of `l` are the spatial velocity gradients that go with them.
 template <class Kinematics, int order>
-auto MeanDilatation<Kinematics, order>::curvature(const Kinematics &kinematics, const Evaluation<double> &s, int q,
-                                                  const Rates &l) -> Curvature
+auto MeanDilatation<Kinematics, order>::curvature(const Kinematics &kinematics, const Evaluation<double> &s,
+                                                  int q, const Rates &l) -> Curvature
 {
   using Row = Eigen::Matrix<double, 1, inputs + 1>;
   const Matrix3<double> tau = from_mandel(s.response[q].tau);
@@ -251,7 +258,8 @@ auto MeanDilatation<Kinematics, order>::curvature(const Kinematics &kinematics, 
   for_each<inputs>([&](auto k) {
     for_each<inputs>([&](auto m) {
       const Unit row(k), column(m);
-      H(k(), m()) += kinematics.second(P, input[k].unknown, row.N, row.dN, input[m].unknown, column.N, column.dN);
+      H(k(), m()) +=
+          kinematics.second(P, input[k].unknown, row.N, row.dN, input[m].unknown, column.N, column.dN);
     });
   });
   return H;
@@ -264,7 +272,8 @@ void MeanDilatation<Kinematics, order>::add_inputs(const Point &p, const Curvatu
   for_each<inputs>([&](auto k) {
     for_each<inputs>([&](auto m) {
       if constexpr (input[k].unknown <= input[m].unknown)
-        for (int b = 0; b < nodes; ++b) HB[k][input[m].unknown][b] += H(k(), m()) * p.shape[input[m].derivative][b];
+        for (int b = 0; b < nodes; ++b)
+          HB[k][input[m].unknown][b] += H(k(), m()) * p.shape[input[m].derivative][b];
     });
   });
   for_each<inputs>([&](auto k) {
@@ -279,8 +288,8 @@ template <class Kinematics, int order>
 void MeanDilatation<Kinematics, order>::tangent(const Kinematics &kinematics, const CellType &cell,
                                                 const Evaluation<double> &s, Matrix &K)
 {
-  // The dilatation depends on all of the cell's unknowns through a few modes: beside the blocks of inputs, a tangent
-  // of low rank.
+  // The dilatation depends on all of the cell's unknowns through a few modes: beside the blocks of inputs, a
+  // tangent of low rank.
   using Dense = Eigen::Matrix<double, modes, dofs, Eigen::RowMajor>; // columns unknown by unknown, as Blocks
   Rows<double> moment[modes]{}, coupling[modes]{};
   Eigen::Matrix<double, modes, modes> dilatational = Eigen::Matrix<double, modes, modes>::Zero();
@@ -302,7 +311,8 @@ void MeanDilatation<Kinematics, order>::tangent(const Kinematics &kinematics, co
       const double d_ln_theta = p.psi[k] / s.theta[q];
       add_rows(p, Inputs<double>(p.psi[k] * dJ), moment[k]);
       add_rows(p, Inputs<double>(d_ln_theta * H.row(inputs).template head<inputs>()), coupling[k]);
-      for (int m = 0; m < modes; ++m) dilatational(k, m) += d_ln_theta * p.psi[m] / s.theta[q] * H(inputs, inputs);
+      for (int m = 0; m < modes; ++m)
+        dilatational(k, m) += d_ln_theta * p.psi[m] / s.theta[q] * H(inputs, inputs);
     }
   }
   const Dense d_dilatation = cell.inverse_mass * Eigen::Map<const Dense>(moment[0][0].data());

@@ -12,7 +12,8 @@ template <int n> struct GaussRule {
   std::array<double, n> point, weight;
 };
 
-/// Nodes by Newton's method on the Legendre polynomial P_n from the Chebyshev estimate; full double precision.
+/// Nodes by Newton's method on the Legendre polynomial P_n from the Chebyshev estimate; full double
+/// precision.
 template <int n> GaussRule<n> gauss_rule()
 {
   GaussRule<n> rule;

@@ -45,7 +45,8 @@ template <int dim, int order> TensorShape<dim, order> tensor_shape(const std::ar
     for (int j = 0; j < dim; ++j) shape.N[a] *= line[j].value[index[j]];
     for (int j = 0; j < dim; ++j) {
       shape.dN[a][j] = 1;
-      for (int k = 0; k < dim; ++k) shape.dN[a][j] *= k == j ? line[k].slope[index[k]] : line[k].value[index[k]];
+      for (int k = 0; k < dim; ++k)
+        shape.dN[a][j] *= k == j ? line[k].slope[index[k]] : line[k].value[index[k]];
     }
   }
   return shape;

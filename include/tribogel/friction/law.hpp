@@ -1,12 +1,13 @@
-/// What every friction law offers: tau(v, p), the tangential stress of a contact that slides at speed v >= 0 [mm/s]
-/// under the pressure p >= 0 [MPa], both per current area, split by what happens at v -> 0+:
+/// What every friction law offers: tau(v, p), the tangential stress of a contact that slides at speed v >= 0
+/// [mm/s] under the pressure p >= 0 [MPa], both per current area, split by what happens at v -> 0+:
 ///
-///     tau(v, p) = static_strength(p) + steep_stress(v, p) + tau_1(v, p),    steep_stress(0, p) = tau_1(0, p) = 0
+///     tau(v, p) = static_strength(p) + steep_stress(v, p) + tau_1(v, p),    steep_stress(0, p) = tau_1(0, p)
+///     = 0
 ///
-/// static_strength is what a stick can hold, a set-valued threshold; steep_stress rises with v, with an infinite slope
-/// at v = 0 (or is 0 throughout), so its inverse is smooth there; tau_1 is smooth. steep_speed(stress, drag, p) is the
-/// v >= 0 that solves steep_stress(v, p) + drag v = stress, for stress, drag > 0. A law without the first two parts has
-/// no kink at all.
+/// static_strength is what a stick can hold, a set-valued threshold; steep_stress rises with v, with an
+/// infinite slope at v = 0 (or is 0 throughout), so its inverse is smooth there; tau_1 is smooth.
+/// steep_speed(stress, drag, p) is the v >= 0 that solves steep_stress(v, p) + drag v = stress, for stress,
+/// drag > 0. A law without the first two parts has no kink at all.
 #pragma once
 
 #include <concepts>

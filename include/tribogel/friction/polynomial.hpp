@@ -1,17 +1,20 @@
-/// Polynomial friction law, eqs. (3.10) and (3.12) of the paper, with Kagata's pressure exponent (its section 3.3):
+/// Polynomial friction law, eqs. (3.10) and (3.12) of the paper, with Kagata's pressure exponent (its
+/// section 3.3):
 ///
 ///     tau = mu(v) q(p),    mu = sum_i b_i v^(m_i),    q = p^a for p >= p_0,    0 <= a <= 1
 ///
-/// m = 0 is the static strength, m >= 1 is smooth, and the slope of 0 < m < 1 at v = 0 is infinite. With a term of the
-/// last kind all rising terms form the steep part, which is asked for its inverse: that is smooth at rest. (Leaving the
-/// terms with m > 1 in the smooth part fails more often and takes three times the iterations: contact/conditions.hpp.)
+/// m = 0 is the static strength, m >= 1 is smooth, and the slope of 0 < m < 1 at v = 0 is infinite. With a
+/// term of the last kind all rising terms form the steep part, which is asked for its inverse: that is smooth
+/// at rest. (Leaving the terms with m > 1 in the smooth part fails more often and takes three times the
+/// iterations: contact/conditions.hpp.)
 ///
 /// For a < 1 the slope of p^a at p = 0 is infinite too. Below the floor p_0 a parabola takes its place,
 ///
 ///     q = p_0^a x (2 - a - (1 - a) x),    x = p / p_0,
 ///
-/// which has the value 0 at p = 0, the value and the slope of p^a at p_0, and rises in between. Above p_0 the law is
-/// exact, and q has no kink (a straight line below p_0 would make one, with a jump of the slope by the factor a).
+/// which has the value 0 at p = 0, the value and the slope of p^a at p_0, and rises in between. Above p_0 the
+/// law is exact, and q has no kink (a straight line below p_0 would make one, with a jump of the slope by the
+/// factor a).
 #pragma once
 
 #include "tribogel/friction/law.hpp"
@@ -27,8 +30,8 @@
 namespace tribogel
 {
 
-/// b_i [MPa^(1-a) (mm/s)^(-m_i)] and m_i >= 0 [1], of equal length; b_i >= 0 where 0 < m_i < 1. No terms: frictionless.
-/// T is the type of the coefficients, Dual for sensitivities.
+/// b_i [MPa^(1-a) (mm/s)^(-m_i)] and m_i >= 0 [1], of equal length; b_i >= 0 where 0 < m_i < 1. No terms:
+/// frictionless. T is the type of the coefficients, Dual for sensitivities.
 template <class T> struct PolynomialFriction {
   std::vector<T> coefficients;
   std::vector<double> exponents;
@@ -37,7 +40,8 @@ template <class T> struct PolynomialFriction {
 
   static bool steep(double exponent) { return exponent > 0 && exponent < 1; }
 
-  /// S is the type of v and p; what comes out carries the derivatives of both (S with T = double, T with S = double).
+  /// S is the type of v and p; what comes out carries the derivatives of both (S with T = double, T with S =
+  /// double).
   template <class S> using Result = decltype(std::declval<T>() * std::declval<S>());
 
   bool linear_in_pressure() const { return pressure_exponent == 1; }
@@ -101,8 +105,8 @@ template <class T> struct PolynomialFriction {
     return mu * load(p);
   }
 
-  /// Only for a law with a steep part. Solved in double; a step of Newton's method from there gives the derivatives,
-  /// exactly.
+  /// Only for a law with a steep part. Solved in double; a step of Newton's method from there gives the
+  /// derivatives, exactly.
   template <class S> Result<S> steep_speed(const S &stress, const S &drag, const S &p) const
   {
     const S q = load(p);
@@ -123,21 +127,23 @@ template <class T> struct PolynomialFriction {
   template <class S> Result<S> coefficient(const S &v, const S &p) const
   {
     Result<S> mu = 0;
-    for (std::size_t i = 0; i < exponents.size(); ++i) mu += coefficients[i] * power_of_speed(v, exponents[i]);
+    for (std::size_t i = 0; i < exponents.size(); ++i)
+      mu += coefficients[i] * power_of_speed(v, exponents[i]);
     if (linear_in_pressure()) return mu;
     return mu * (value(p) == 0 ? load_slope(S(0)) : S(load(p) / p));
   }
 
   template <class U> PolynomialFriction<U> cast() const
   {
-    return {std::vector<U>(coefficients.begin(), coefficients.end()), exponents, pressure_exponent, pressure_floor};
+    return {std::vector<U>(coefficients.begin(), coefficients.end()), exponents, pressure_exponent,
+            pressure_floor};
   }
 
 private:
   bool rises(std::size_t i) const { return exponents[i] > 0 && value(coefficients[i]) > 0; }
 
-  /// v^e for e >= 0. The derivative of v^e at v = 0, infinite for e < 1, is left out: tau_1 is |v|^(m-1) times the
-  /// velocity vector, whose derivative at v = 0 is |v|^(m-1) times the identity.
+  /// v^e for e >= 0. The derivative of v^e at v = 0, infinite for e < 1, is left out: tau_1 is |v|^(m-1)
+  /// times the velocity vector, whose derivative at v = 0 is |v|^(m-1) times the identity.
   template <class S> static S power_of_speed(const S &v, double e)
   {
     using std::pow;
@@ -146,9 +152,10 @@ private:
     return value(v) == 0 ? S(0) : S(pow(v, e));
   }
 
-  /// The v >= 0 with q sum b_i v^(m_i) + drag v = stress, for stress, drag > 0; 0 where it underflows. In log v the
-  /// logarithm of the left side is convex with slopes between the least m_i and 1, so Newton's method from the right of
-  /// the solution converges without fail; the right is where one term alone would be the stress.
+  /// The v >= 0 with q sum b_i v^(m_i) + drag v = stress, for stress, drag > 0; 0 where it underflows. In log
+  /// v the logarithm of the left side is convex with slopes between the least m_i and 1, so Newton's method
+  /// from the right of the solution converges without fail; the right is where one term alone would be the
+  /// stress.
   double solve_for_speed(double stress, double drag, double q) const;
 };
 

@@ -1,11 +1,11 @@
-/// What rheologists read from a torque: closed forms that assume a planar contact, the sliding speed omega r, and
-/// uniform pressure. Section 2 of the paper assumes more, a traction proportional to the speed; section 3.3 a
-/// polynomial law. They are undefined, and then NaN, without normal force. A coefficient is |traction| / pressure, so
-/// the torque's sign is ignored. Units mm, N, rad, s; torque N mm.
+/// What rheologists read from a torque: closed forms that assume a planar contact, the sliding speed omega r,
+/// and uniform pressure. Section 2 of the paper assumes more, a traction proportional to the speed;
+/// section 3.3 a polynomial law. They are undefined, and then NaN, without normal force. A coefficient is
+/// |traction| / pressure, so the torque's sign is ignored. Units mm, N, rad, s; torque N mm.
 ///
-/// The paper's contact is a disc of radius R. Under the same assumptions tractions on a face of any shape stand across
-/// the radius, so that its integrals over the disc become means of powers of r over the face: with <f> the area mean,
-/// N = p A, T = A p <r mu(omega r)>, and the coefficient is <mu(omega r)>.
+/// The paper's contact is a disc of radius R. Under the same assumptions tractions on a face of any shape
+/// stand across the radius, so that its integrals over the disc become means of powers of r over the face:
+/// with <f> the area mean, N = p A, T = A p <r mu(omega r)>, and the coefficient is <mu(omega r)>.
 #pragma once
 
 #include "tribogel/friction/polynomial.hpp"
@@ -48,8 +48,8 @@ private:
   std::vector<Part> parts; ///< empty: a disc
 };
 
-/// Sum of the tractions c omega r over the disc, whatever their direction, eq. (2.1) [N]; c is the traction over the
-/// sliding speed [MPa s/mm].
+/// Sum of the tractions c omega r over the disc, whatever their direction, eq. (2.1) [N]; c is the traction
+/// over the sliding speed [MPa s/mm].
 inline double viscous_friction_force(double c, double rate, double radius)
 {
   return 2 * std::numbers::pi / 3 * c * std::abs(rate) * radius * radius * radius;
@@ -61,8 +61,8 @@ inline double viscous_torque(double c, double rate, double radius)
   return std::numbers::pi / 2 * c * std::abs(rate) * radius * radius * radius * radius;
 }
 
-/// The friction force that goes with a torque when tractions grow as r: the ratio of their sum, as (2.1), to their
-/// moment, as (2.2), over the face; 4 T / (3 R) on a disc [N].
+/// The friction force that goes with a torque when tractions grow as r: the ratio of their sum, as (2.1), to
+/// their moment, as (2.2), over the face; 4 T / (3 R) on a disc [N].
 inline double gong_friction_force(double torque, const ContactFace &face)
 {
   return std::abs(torque) * face.mean_power(1) / face.mean_power(2);
@@ -75,29 +75,32 @@ inline double gong_coefficient(double torque, double normal_force, const Contact
   return gong_friction_force(torque, face) / normal_force;
 }
 
-/// Area mean of mu(omega r) over the face; the numerator of (3.13) over the half of R^2 that is the disc's integral of
-/// r.
+/// Area mean of mu(omega r) over the face; the numerator of (3.13) over the half of R^2 that is the disc's
+/// integral of r.
 template <class T> T mean_coefficient(const PolynomialFriction<T> &law, const ContactFace &face, double rate)
 {
   T sum = 0;
   for (std::size_t i = 0; i < law.exponents.size(); ++i)
-    sum += law.coefficients[i] * (std::pow(std::abs(rate), law.exponents[i]) * face.mean_power(law.exponents[i]));
+    sum += law.coefficients[i] *
+           (std::pow(std::abs(rate), law.exponents[i]) * face.mean_power(law.exponents[i]));
   return sum;
 }
 
-/// T / N of a law proportional to the pressure, for a uniform one: the area mean of r mu(omega r) [mm]; the denominator
-/// of (3.13) over the same.
+/// T / N of a law proportional to the pressure, for a uniform one: the area mean of r mu(omega r) [mm]; the
+/// denominator of (3.13) over the same.
 template <class T> T torque_over_force(const PolynomialFriction<T> &law, const ContactFace &face, double rate)
 {
   T sum = 0;
   for (std::size_t i = 0; i < law.exponents.size(); ++i)
-    sum += law.coefficients[i] * (std::pow(std::abs(rate), law.exponents[i]) * face.mean_power(law.exponents[i] + 1));
+    sum += law.coefficients[i] *
+           (std::pow(std::abs(rate), law.exponents[i]) * face.mean_power(law.exponents[i] + 1));
   return sum;
 }
 
-/// Apparent coefficient for a polynomial law, eq. (3.13): the area mean of mu, scaled as the torque T is to the one
-/// that the law gives, for a rotation at `rate` [rad/s]. (3.11) is its case of the exponents 0, 1, 2, corrected as
-/// src/PAPER.md says. NaN also where the law gives no torque, and where tau is not proportional to p.
+/// Apparent coefficient for a polynomial law, eq. (3.13): the area mean of mu, scaled as the torque T is to
+/// the one that the law gives, for a rotation at `rate` [rad/s]. (3.11) is its case of the exponents 0, 1, 2,
+/// corrected as src/PAPER.md says. NaN also where the law gives no torque, and where tau is not proportional
+/// to p.
 inline double apparent_coefficient(const PolynomialFriction<double> &law, double torque, double normal_force,
                                    const ContactFace &face, double rate)
 {

@@ -1,17 +1,18 @@
-/// Axisymmetric body that may twist about its axis: mesh in the (R, Z) half plane, unknowns (u_R, w, u_Z) per node with
-/// w = L phi, a length (L is the length scale of the twist, the top radius). A material point (R, Theta, Z) moves to
-/// (R + u_R, Theta + phi, Z + u_Z). In physical components (e_r, e_theta, e_z) x (E_R, E_Theta, E_Z), THEORY (2.1):
+/// Axisymmetric body that may twist about its axis: mesh in the (R, Z) half plane, unknowns (u_R, w, u_Z) per
+/// node with w = L phi, a length (L is the length scale of the twist, the top radius). A material point (R,
+/// Theta, Z) moves to (R + u_R, Theta + phi, Z + u_Z). In physical components (e_r, e_theta, e_z) x (E_R,
+/// E_Theta, E_Z), THEORY (2.1):
 ///
 ///       [ r,R        0      r,Z     ]
 ///   F = [ r phi,R    r/R    r phi,Z ]
 ///       [ z,R        0      z,Z     ]
 ///
-/// F holds only gradients of phi: any number of revolutions is represented without loss of digits, and a rigid
-/// rotation of the body is a constant phi.
+/// F holds only gradients of phi: any number of revolutions is represented without loss of digits, and a
+/// rigid rotation of the body is a constant phi.
 ///
-/// This struct is what a model must offer to the element (the 3-D model offers the same): what F depends on, `inputs`,
-/// `deformation`, the first variation `first` of F for one unit nodal unknown, the second variation contracted with a
-/// stress, and `measure`.
+/// This struct is what a model must offer to the element (the 3-D model offers the same): what F depends on,
+/// `inputs`, `deformation`, the first variation `first` of F for one unit nodal unknown, the second variation
+/// contracted with a stress, and `measure`.
 #pragma once
 
 #include "tribogel/math/tensor.hpp"
@@ -79,8 +80,8 @@ struct AxisymmetricTorsion {
   }
 
   /// P : d2F for unknown i at node a and unknown j at node b; F is bilinear in (u_R, phi) only.
-  double second(const Matrix3<double> &P, int i, double Na, const std::array<double, 2> &dNa, int j, double Nb,
-                const std::array<double, 2> &dNb) const
+  double second(const Matrix3<double> &P, int i, double Na, const std::array<double, 2> &dNa, int j,
+                double Nb, const std::array<double, 2> &dNb) const
   {
     if (i == 0 && j == 1) return Na * (P(1, 0) * dNb[0] + P(1, 2) * dNb[1]) / twist_length;
     if (i == 1 && j == 0) return Nb * (P(1, 0) * dNa[0] + P(1, 2) * dNa[1]) / twist_length;

@@ -1,4 +1,5 @@
-/// Maxwell branch of finite viscoelasticity (Reese and Govindjee 1998; the paper's section 3.2), in principal axes.
+/// Maxwell branch of finite viscoelasticity (Reese and Govindjee 1998; the paper's section 3.2), in principal
+/// axes.
 #pragma once
 
 #include "tribogel/material/ogden.hpp"
@@ -16,7 +17,8 @@ template <class T> struct BranchStep {
   Vector3<T> strain = Vector3<T>::Zero();
   /// (eps_a - eps_b)/(trial_a - trial_b) by pair_index, 0 (relaxed) ... 1 (frozen).
   Vector3<Value<T>> strain_ratio = Vector3<Value<T>>::Zero();
-  DeviatoricStress<T> deviatoric; ///< at the new time; stiffness and secant with respect to the *trial* strains
+  DeviatoricStress<T>
+      deviatoric; ///< at the new time; stiffness and secant with respect to the *trial* strains
   VolumetricStress<T> volumetric; ///< the same
   T energy = 0;                   ///< stored, per reference volume [MPa]
   T dissipated = 0;               ///< in this step, per reference volume [MPa], >= 0
@@ -52,13 +54,15 @@ private:
   }
 
   static constexpr int max_iterations = 60;
-  static constexpr double quadratic = 1e-9; ///< a smaller correction, once applied, leaves nothing but round-off
+  static constexpr double quadratic =
+      1e-9; ///< a smaller correction, once applied, leaves nothing but round-off
 
   bool solve_volumetric(const T &trial, const T &rate, T &theta) const;
   bool solve_deviatoric(const Vector3<T> &trial, const T &rate, Vector3<T> &e) const;
 
   /// (1 + rate P diag(D) P)^-1 r for a trace-free r, THEORY (1.15).
-  template <class S> static Vector3<S> correction(const Vector3<Value<T>> &D, const Value<T> &rate, const Vector3<S> &r)
+  template <class S>
+  static Vector3<S> correction(const Vector3<Value<T>> &D, const Value<T> &rate, const Vector3<S> &r)
   {
     const Vector3<S> Dr = D.cwiseProduct(r), flow = Dr.array() - Dr.sum() / 3;
     return ((1 + rate * 2 / 3 * D.sum()) * r - rate * flow) / determinant(D, rate);
@@ -100,7 +104,8 @@ template <class T> BranchStep<T> MaxwellBranch<T>::advance(const Vector3<T> &tri
   const T &mean = out.volumetric.mean;
   out.dissipated = rate * tau.dot(tau) + volumetric_rate * mean * mean;
 
-  // From derivatives with respect to eps to those with respect to the trial strains, THEORY (1.13), (1.14), (1.16).
+  // From derivatives with respect to eps to those with respect to the trial strains, THEORY (1.13), (1.14),
+  // (1.16).
   VolumetricStress<T> &v = out.volumetric;
   v.bulk /= 1 + volumetric_rate * v.bulk;
   Vector3<T> &D = out.deviatoric.stiffness;
@@ -115,9 +120,10 @@ template <class T> BranchStep<T> MaxwellBranch<T>::advance(const Vector3<T> &tri
   return out;
 }
 
-/// theta + rate mean(theta) = trial. The start solves it with the stiffness at theta = 0; as the mean stress is convex
-/// in theta, it lies beyond the root and Newton's method comes down monotonically. The quadratic law is convex for
-/// J > 1/4 only and falls below J = 1/2: where the left side does not grow, there is no root to be trusted.
+/// theta + rate mean(theta) = trial. The start solves it with the stiffness at theta = 0; as the mean stress
+/// is convex in theta, it lies beyond the root and Newton's method comes down monotonically. The quadratic
+/// law is convex for J > 1/4 only and falls below J = 1/2: where the left side does not grow, there is no
+/// root to be trusted.
 template <class T> bool MaxwellBranch<T>::solve_volumetric(const T &trial, const T &rate, T &theta) const
 {
   using std::abs;
@@ -140,10 +146,11 @@ template <class T> bool MaxwellBranch<T>::solve_volumetric(const T &trial, const
   return all(size <= quadratic);
 }
 
-/// e + rate tau(e) = trial, the gradient of a convex function where all G_r alpha_r > 0. The start solves it with the
-/// stiffness at e = 0. Full steps converge for stretches up to 30 and exponents up to 14 but for a few in 100,000
-/// cases, and halving those that enlarge the residual does not save more.
-template <class T> bool MaxwellBranch<T>::solve_deviatoric(const Vector3<T> &trial, const T &rate, Vector3<T> &e) const
+/// e + rate tau(e) = trial, the gradient of a convex function where all G_r alpha_r > 0. The start solves it
+/// with the stiffness at e = 0. Full steps converge for stretches up to 30 and exponents up to 14 but for a
+/// few in 100,000 cases, and halving those that enlarge the residual does not save more.
+template <class T>
+bool MaxwellBranch<T>::solve_deviatoric(const Vector3<T> &trial, const T &rate, Vector3<T> &e) const
 {
   using V = Value<T>;
   const Vector3<V> target = value(trial);
@@ -153,7 +160,8 @@ template <class T> bool MaxwellBranch<T>::solve_deviatoric(const Vector3<T> &tri
   for (int i = 0; i < max_iterations && any(size > quadratic); ++i) {
     const auto open = size > quadratic;
     const DeviatoricStress<V> stress = spring.deviatoric(x);
-    const Vector3<V> residual = x - target + s * stress.tau, change = correction(stress.stiffness, s, residual);
+    const Vector3<V> residual = x - target + s * stress.tau,
+                     change = correction(stress.stiffness, s, residual);
     for (int a = 0; a < 3; ++a) x[a] = where(open, V(x[a] - change[a]), x[a]);
     size = where(open, V(largest(change) / (1 + largest(x))), size);
   }

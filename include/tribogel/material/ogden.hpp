@@ -28,18 +28,19 @@ template <class S> struct VolumetricStress {
   S bulk = 0; ///< d mean/d theta [MPa]
 };
 
-/// The volumetric energy: K/4 (J^2 - 2 ln J - 1), the paper's, or K/2 (J - 1)^2, that of many other programs. The
-/// latter's mean Kirchhoff stress has a minimum at J = 1/2 and vanishes at J = 0.
+/// The volumetric energy: K/4 (J^2 - 2 ln J - 1), the paper's, or K/2 (J - 1)^2, that of many other programs.
+/// The latter's mean Kirchhoff stress has a minimum at J = 1/2 and vanishes at J = 0.
 enum class VolumetricLaw { logarithmic, quadratic };
 
-/// Ogden energy with any number of terms and a volumetric part, the paper's (3.6) and (3.7). With the principal
-/// logarithmic strains eps_a = ln lambda_a, theta = ln J = sum eps_a and e_a = eps_a - theta/3 it is, per reference
-/// volume,
+/// Ogden energy with any number of terms and a volumetric part, the paper's (3.6) and (3.7). With the
+/// principal logarithmic strains eps_a = ln lambda_a, theta = ln J = sum eps_a and e_a = eps_a - theta/3 it
+/// is, per reference volume,
 ///
 ///   W = sum_r G_r/alpha_r sum_a (exp(alpha_r e_a) - 1) + K/4 (J^2 - 2 ln J - 1)        THEORY (1.4)
 ///
 /// or with K/2 (J - 1)^2 as its volumetric part, THEORY (1.8a).
-/// T is the scalar of the parameters, double, Dual<N> or Lanes. Exponents are not zero; a modulus may have any sign.
+/// T is the scalar of the parameters, double, Dual<N> or Lanes. Exponents are not zero; a modulus may have
+/// any sign.
 template <class T> struct Ogden {
   std::vector<T> moduli;    ///< G_r [MPa]
   std::vector<T> exponents; ///< alpha_r, as many
@@ -60,8 +61,8 @@ template <class T> struct Ogden {
             U(bulk_modulus), volumetric_law};
   }
 
-  /// From the deviatoric principal strains. The stress is built from the secants, so that it keeps its relative
-  /// accuracy however small the strains are.
+  /// From the deviatoric principal strains. The stress is built from the secants, so that it keeps its
+  /// relative accuracy however small the strains are.
   template <class S> DeviatoricStress<S> deviatoric(const Vector3<S> &e) const
   {
     using std::abs, std::exp;
@@ -99,8 +100,8 @@ template <class T> struct Ogden {
     return {0.5 * K * excess, K * (1 + excess)};
   }
 
-  /// W per reference volume [MPa]: both parts, from the deviatoric strains and theta. Accurate down to vanishing
-  /// strains: the terms linear in the strain, which cancel, are left out.
+  /// W per reference volume [MPa]: both parts, from the deviatoric strains and theta. Accurate down to
+  /// vanishing strains: the terms linear in the strain, which cancel, are left out.
   T energy(const Vector3<T> &e, const T &theta) const
   {
     T W = volumetric_energy(theta);
@@ -113,7 +114,8 @@ template <class T> struct Ogden {
   T volumetric_energy(const T &theta) const
   {
     using std::expm1;
-    if (volumetric_law == VolumetricLaw::logarithmic) return 0.25 * bulk_modulus * exp_minus_tangent(T(2 * theta));
+    if (volumetric_law == VolumetricLaw::logarithmic)
+      return 0.25 * bulk_modulus * exp_minus_tangent(T(2 * theta));
     const T growth = expm1(theta); // J - 1
     return 0.5 * bulk_modulus * growth * growth;
   }

@@ -10,8 +10,8 @@
 namespace tribogel
 {
 
-/// At `count` points with these deformation gradients; the history is that of one point after the other. The first
-/// failure ends it.
+/// At `count` points with these deformation gradients; the history is that of one point after the other. The
+/// first failure ends it.
 template <class T>
 PointStatus evaluate_points(const Viscoelastic<T> &material, int count, const Matrix3<T> *F, const T *history,
                             StepWeights step, T *history_new, bool with_tangent, Response<T> *response)
@@ -19,7 +19,8 @@ PointStatus evaluate_points(const Viscoelastic<T> &material, int count, const Ma
   const int stride = material.history_size();
   for (int q = 0; q < count; ++q) {
     const HistoryLevels<T> levels{history ? history + q * stride : nullptr};
-    response[q] = material.evaluate(F[q], levels, step, history_new ? history_new + q * stride : nullptr, with_tangent);
+    response[q] =
+        material.evaluate(F[q], levels, step, history_new ? history_new + q * stride : nullptr, with_tangent);
     if (response[q].status != PointStatus::ok) return response[q].status;
   }
   return PointStatus::ok;
@@ -27,8 +28,8 @@ PointStatus evaluate_points(const Viscoelastic<T> &material, int count, const Ma
 
 /// The same by lanes; those that are left over at the end repeat the last point.
 inline PointStatus evaluate_points(const Viscoelastic<Lanes> &material, int count, const Matrix3<double> *F,
-                                   const double *history, StepWeights step, double *history_new, bool with_tangent,
-                                   Response<double> *response)
+                                   const double *history, StepWeights step, double *history_new,
+                                   bool with_tangent, Response<double> *response)
 {
   const int stride = material.history_size();
   static thread_local std::vector<Lanes> before, after; // not made anew for each cell
@@ -42,8 +43,8 @@ inline PointStatus evaluate_points(const Viscoelastic<Lanes> &material, int coun
       for (int k = 0; k < 9; ++k) gradient.data()[k].v[lane] = F[q].data()[k];
       for (int k = 0; k < stride; ++k) before[k].v[lane] = history[q * stride + k];
     }
-    const Response<Lanes> all =
-        material.evaluate(gradient, {before.data()}, step, history_new ? after.data() : nullptr, with_tangent);
+    const Response<Lanes> all = material.evaluate(gradient, {before.data()}, step,
+                                                  history_new ? after.data() : nullptr, with_tangent);
     for (int lane = 0; lane < width; ++lane) {
       Response<double> &one = response[first + lane];
       one.status = all.status;
@@ -51,7 +52,8 @@ inline PointStatus evaluate_points(const Viscoelastic<Lanes> &material, int coun
       one.dissipated = all.dissipated.v[lane];
       for (int k = 0; k < 6; ++k) one.tau[k] = all.tau[k].v[lane];
       for (int k = 0; with_tangent && k < 36; ++k) one.tangent.data()[k] = all.tangent.data()[k].v[lane];
-      for (int k = 0; history_new && k < stride; ++k) history_new[(first + lane) * stride + k] = after[k].v[lane];
+      for (int k = 0; history_new && k < stride; ++k)
+        history_new[(first + lane) * stride + k] = after[k].v[lane];
     }
     if (all.status != PointStatus::ok) return all.status;
   }

@@ -14,20 +14,22 @@
 namespace tribogel
 {
 
-/// What the law returns at a point, per reference volume. Nothing but `status` means anything unless that is ok.
+/// What the law returns at a point, per reference volume. Nothing but `status` means anything unless that is
+/// ok.
 template <class T> struct Response {
   PointStatus status = PointStatus::ok;
   T energy = 0;                      ///< stored, in all springs [MPa]
   T dissipated = 0;                  ///< in this step, >= 0 [MPa]
   Mandel<T> tau = Mandel<T>::Zero(); ///< Kirchhoff stress, J times Cauchy's [MPa]
-  /// If asked for: the Lie derivative tau_dot - l tau - tau l^T = tangent : d, consistent with the step taken;
-  /// symmetric [MPa]. The values only: it is the derivative, and dual numbers do not carry second ones.
+  /// If asked for: the Lie derivative tau_dot - l tau - tau l^T = tangent : d, consistent with the step
+  /// taken; symmetric [MPa]. The values only: it is the derivative, and dual numbers do not carry second
+  /// ones.
   Mandel4<Value<T>> tangent = Mandel4<Value<T>>::Zero();
 };
 
-/// The bulk law: a value that holds its parameters and nothing else. It may be called twice, in any order, on steps
-/// that are later rejected; the caller owns the history. T is the scalar of parameters, F and history, double,
-/// Dual<N> or Lanes. Without branches the law is hyperelastic, has no history and ignores the step.
+/// The bulk law: a value that holds its parameters and nothing else. It may be called twice, in any order, on
+/// steps that are later rejected; the caller owns the history. T is the scalar of parameters, F and history,
+/// double, Dual<N> or Lanes. Without branches the law is hyperelastic, has no history and ignores the step.
 template <class T> struct Viscoelastic {
   using Scalar = T;
 
@@ -44,11 +46,11 @@ template <class T> struct Viscoelastic {
 
   template <class U> Viscoelastic<U> cast() const;
 
-  /// Stress at the new time from the deformation gradient F there (any 3x3 matrix of physical components with a
-  /// positive determinant) and the history. `history_new` [history_size()] may be null, may not be one of the levels,
-  /// and is complete only if the status is ok.
-  Response<T> evaluate(const Matrix3<T> &F, const HistoryLevels<T> &history, const StepWeights &weights, T *history_new,
-                       bool with_tangent) const;
+  /// Stress at the new time from the deformation gradient F there (any 3x3 matrix of physical components with
+  /// a positive determinant) and the history. `history_new` [history_size()] may be null, may not be one of
+  /// the levels, and is complete only if the status is ok.
+  Response<T> evaluate(const Matrix3<T> &F, const HistoryLevels<T> &history, const StepWeights &weights,
+                       T *history_new, bool with_tangent) const;
 
 private:
   /// Adds one spring's stress and tangent, given in the axes of `strain`.
@@ -72,8 +74,8 @@ template <class T> template <class U> Viscoelastic<U> Viscoelastic<T>::cast() co
 }
 
 template <class T>
-Response<T> Viscoelastic<T>::evaluate(const Matrix3<T> &F, const HistoryLevels<T> &history, const StepWeights &weights,
-                                      T *history_new, bool with_tangent) const
+Response<T> Viscoelastic<T>::evaluate(const Matrix3<T> &F, const HistoryLevels<T> &history,
+                                      const StepWeights &weights, T *history_new, bool with_tangent) const
 {
   using std::isfinite, std::log;
   Response<T> out;
@@ -114,8 +116,8 @@ void Viscoelastic<T>::add_stress(const Spectral<T> &strain, const DeviatoricStre
   if (with_tangent) add_tangent(strain, deviatoric, volumetric, out.tangent);
 }
 
-/// THEORY (1.11): in the principal axes c_aabb = d tau_a/d eps_b - 2 tau_a delta_ab, and the Mandel component of a
-/// shear is s_ab delta coth(delta) - tau_a - tau_b, with s_ab the secant and delta = eps_a - eps_b.
+/// THEORY (1.11): in the principal axes c_aabb = d tau_a/d eps_b - 2 tau_a delta_ab, and the Mandel component
+/// of a shear is s_ab delta coth(delta) - tau_a - tau_b, with s_ab the secant and delta = eps_a - eps_b.
 template <class T>
 void Viscoelastic<T>::add_tangent(const Spectral<T> &strain, const DeviatoricStress<T> &deviatoric,
                                   const VolumetricStress<T> &volumetric, Mandel4<Value<T>> &tangent)
@@ -127,7 +129,8 @@ void Viscoelastic<T>::add_tangent(const Spectral<T> &strain, const DeviatoricStr
   Vector3<V> shear;
   const V constant = D.sum() / 9 + value(volumetric.bulk);
   for (int a = 0; a < 3; ++a)
-    for (int b = 0; b < 3; ++b) normal(a, b) = constant - (D[a] + D[b]) / 3 + (a == b ? V(D[a] - 2 * tau[a]) : V(0));
+    for (int b = 0; b < 3; ++b)
+      normal(a, b) = constant - (D[a] + D[b]) / 3 + (a == b ? V(D[a] - 2 * tau[a]) : V(0));
   for (int k = 0; k < 3; ++k) {
     const int a = pair_index[k][0], b = pair_index[k][1];
     shear[k] = value(deviatoric.secant[k]) * x_coth(V(eps[a] - eps[b])) - tau[a] - tau[b];
@@ -139,8 +142,8 @@ void Viscoelastic<T>::add_tangent(const Spectral<T> &strain, const DeviatoricStr
   tangent.noalias() += half * R.transpose();
 }
 
-/// b_e of the new state, an isotropic function of the trial strain; its logarithms lie `reach` times as far from those
-/// of the trial strain as the step's.
+/// b_e of the new state, an isotropic function of the trial strain; its logarithms lie `reach` times as far
+/// from those of the trial strain as the step's.
 template <class T>
 Matrix3<T> Viscoelastic<T>::elastic_strain(const Spectral<T> &trial, const BranchStep<T> &step, double reach)
 {
@@ -153,7 +156,8 @@ Matrix3<T> Viscoelastic<T>::elastic_strain(const Spectral<T> &trial, const Branc
     const int p = pair_index[k][0], q = pair_index[k][1];
     const Value<T> x = value(strain[p]), y = value(strain[q]);
     // (b_p - b_q)/(x - y) times (x - y)/(trial_p - trial_q), THEORY (1.16)
-    const Value<T> ratio = reach == 1 ? step.strain_ratio[k] : Value<T>(1 + reach * (step.strain_ratio[k] - 1));
+    const Value<T> ratio =
+        reach == 1 ? step.strain_ratio[k] : Value<T>(1 + reach * (step.strain_ratio[k] - 1));
     divided[k] = 2 * exp(Value<T>(x + y)) * sinhc(Value<T>(x - y)) * ratio;
   }
   return isotropic_function(trial, b, divided);

@@ -1,12 +1,13 @@
 /// Forward dual numbers: a value and its first derivatives in N directions.
 ///
-/// Whatever is written for `double` and templated on the scalar gives exact derivatives when it is called with
-/// `Dual<N>`:
+/// Whatever is written for `double` and templated on the scalar gives exact derivatives when it is called
+/// with `Dual<N>`:
 ///
 ///     auto x = Dual<2>::seed(3, 0), y = Dual<2>::seed(4, 1);
 ///     auto r = sqrt(x * x + y * y);   // r.v = 5, r.d = {0.6, 0.8}
 ///
-/// Comparisons look at the value only. Call functions unqualified after `using std::exp;`, so that both scalars work.
+/// Comparisons look at the value only. Call functions unqualified after `using std::exp;`, so that both
+/// scalars work.
 #pragma once
 
 #include <Eigen/Core>

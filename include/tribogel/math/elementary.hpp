@@ -1,6 +1,5 @@
-/// Elementary functions written so that no digit is lost near zero and no case distinction is visible in the result.
-/// T is double, Dual<N> or
-/// Lanes.
+/// Elementary functions written so that no digit is lost near zero and no case distinction is visible in the
+/// result. T is double, Dual<N> or Lanes.
 #pragma once
 
 #include "tribogel/math/dual.hpp"
@@ -33,8 +32,8 @@ template <class T> T sinhc(const T &x)
 template <class T> T exp_minus_tangent_series(const T &x)
 {
   T sum = 1;
-  for (double factor : {1.0 / 15, 1.0 / 14, 1.0 / 13, 1.0 / 12, 1.0 / 11, 1.0 / 10, 1.0 / 9, 1.0 / 8, 1.0 / 7, 1.0 / 6,
-                        1.0 / 5, 1.0 / 4, 1.0 / 3})
+  for (double factor : {1.0 / 15, 1.0 / 14, 1.0 / 13, 1.0 / 12, 1.0 / 11, 1.0 / 10, 1.0 / 9, 1.0 / 8, 1.0 / 7,
+                        1.0 / 6, 1.0 / 5, 1.0 / 4, 1.0 / 3})
     sum = 1 + factor * x * sum;
   return x * x * sum * 0.5;
 }
@@ -44,14 +43,16 @@ template <class T> T exp_minus_tangent(const T &x)
 {
   using std::abs, std::exp;
   return choose(
-      abs(value(x)) > 0.5, [&]() -> T { return exp(x) - 1 - x; }, [&]() -> T { return exp_minus_tangent_series(x); });
+      abs(value(x)) > 0.5, [&]() -> T { return exp(x) - 1 - x; },
+      [&]() -> T { return exp_minus_tangent_series(x); });
 }
 
 /// exp(x) - 1.
 inline Lanes expm1(const Lanes &x)
 {
   return choose(
-      abs(x) > 0.5, [&]() -> Lanes { return exp(x) - 1; }, [&]() -> Lanes { return x + exp_minus_tangent_series(x); });
+      abs(x) > 0.5, [&]() -> Lanes { return exp(x) - 1; },
+      [&]() -> Lanes { return x + exp_minus_tangent_series(x); });
 }
 
 inline Lanes tanh(const Lanes &x)

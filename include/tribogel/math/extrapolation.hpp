@@ -1,9 +1,9 @@
-/// How far off a value on a mesh (or with a step) is, judged by the same value on coarser ones: the fit value(h) = v +
-/// C h^p, exact for three sizes of any ratio, least squares in v, C and p for more, and from it an error with a factor
-/// of safety, after P. J. Roache, J. Fluids Eng. 116 (1994) 405-413 and L. Eca, M. Hoekstra, J. Comput. Phys. 262
-/// (2014) 104-130. What meshes of whole numbers of edges are not alike in scatters about the fit, and the scatter is
-/// part of the error. An observed order outside 0.5 to 2 is replaced by the nearer end: stress is singular at rims, and
-/// higher orders are chance.
+/// How far off a value on a mesh (or with a step) is, judged by the same value on coarser ones: the fit
+/// value(h) = v + C h^p, exact for three sizes of any ratio, least squares in v, C and p for more, and from
+/// it an error with a factor of safety, after P. J. Roache, J. Fluids Eng. 116 (1994) 405-413 and L. Eca, M.
+/// Hoekstra, J. Comput. Phys. 262 (2014) 104-130. What meshes of whole numbers of edges are not alike in
+/// scatters about the fit, and the scatter is part of the error. An observed order outside 0.5 to 2 is
+/// replaced by the nearer end: stress is singular at rims, and higher orders are chance.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,8 @@
 namespace tribogel
 {
 
-/// How a series behaves, and with it how it is judged. "Distance" is that of the finest value from the fit's limit.
+/// How a series behaves, and with it how it is judged. "Distance" is that of the finest value from the fit's
+/// limit.
 enum class Convergence {
   confirmed,  ///< order from 0.5 to 2: 1.25 distance + scatter
   fast,       ///< order above 2, taken for 2: as confirmed; of three levels 3 spread
@@ -31,7 +32,8 @@ inline constexpr const char *convergence_names[] = {"confirmed",  "fast",    "sl
 struct Extrapolation {
   Convergence verdict = Convergence::unknown;
   double limit = std::numeric_limits<double>::quiet_NaN(); ///< the finest value where nothing is extrapolated
-  double error = std::numeric_limits<double>::quiet_NaN(); ///< of the finest value, with its factor of safety, >= 0
+  double error =
+      std::numeric_limits<double>::quiet_NaN(); ///< of the finest value, with its factor of safety, >= 0
   double order = std::numeric_limits<double>::quiet_NaN(); ///< observed, or known; NaN without one
 };
 
@@ -45,14 +47,16 @@ namespace extrapolation
 
 inline constexpr double lowest_order = 0.5, highest_order = 2;
 inline constexpr double confirmed_factor = 1.25, doubtful_factor = 3;
-inline constexpr double round_off = 1e-9, zero = 1e-10; ///< of the value; of the scale of values that may be 0
+inline constexpr double round_off = 1e-9,
+                        zero = 1e-10; ///< of the value; of the scale of values that may be 0
 
 struct Fit {
   double limit, finest, squares; ///< v; the fit at the finest size; sum of squared residuals
 };
 
-/// Least squares in v and C for a given order, `levels` from coarse to fine. With x = h/h_finest, h^p is written
-/// (x^p - 1)/p, which has no trouble at p = 0; values relative to the finest keep the digits that they share.
+/// Least squares in v and C for a given order, `levels` from coarse to fine. With x = h/h_finest, h^p is
+/// written (x^p - 1)/p, which has no trouble at p = 0; values relative to the finest keep the digits that
+/// they share.
 inline Fit fit_of_order(const std::vector<Level> &levels, double p)
 {
   const Level &finest = levels.back();
@@ -78,7 +82,8 @@ inline Fit fit_of_order(const std::vector<Level> &levels, double p)
   return fit;
 }
 
-/// The order of the best fit: the best of a scan, then golden sections around it. Three levels are met exactly.
+/// The order of the best fit: the best of a scan, then golden sections around it. Three levels are met
+/// exactly.
 inline double best_order(const std::vector<Level> &levels)
 {
   constexpr double lowest = -4, highest = 12, step = 0.05, golden = 0.6180339887498949, digits = 1e-12;
@@ -117,8 +122,8 @@ inline Extrapolation judge_by_fit(const std::vector<Level> &levels, double sprea
 
 } // namespace extrapolation
 
-/// Of the value at the finest level. `scale`: of values of this kind, below whose 1e-10 a difference is round-off
-/// whatever the value (a torque before any rotation).
+/// Of the value at the finest level. `scale`: of values of this kind, below whose 1e-10 a difference is
+/// round-off whatever the value (a torque before any rotation).
 inline Extrapolation extrapolate(std::vector<Level> levels, double scale = 0)
 {
   using namespace extrapolation;

@@ -1,9 +1,9 @@
-/// Several numbers at once, as many as one of the processor's vectors holds: the scalar with which code that is
-/// templated on it does at as many points, in about the time of one, what it does with `double` at one.
+/// Several numbers at once, as many as one of the processor's vectors holds: the scalar with which code that
+/// is templated on it does at as many points, in about the time of one, what it does with `double` at one.
 ///
-/// A comparison gives a `Mask`, lane by lane. What must be asked in one way for all scalars: `any` and `all` make a
-/// branch of it; `where` takes one of two values, lane by lane; `choose` too, but computes only what some lane needs.
-/// No lane's result depends on the others.
+/// A comparison gives a `Mask`, lane by lane. What must be asked in one way for all scalars: `any` and `all`
+/// make a branch of it; `where` takes one of two values, lane by lane; `choose` too, but computes only what
+/// some lane needs. No lane's result depends on the others.
 #pragma once
 
 #include "tribogel/math/dual.hpp"

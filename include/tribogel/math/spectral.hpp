@@ -1,7 +1,8 @@
-/// Spectral form of symmetric 3x3 tensors and isotropic tensor functions of them, exact at coalescing eigenvalues.
+/// Spectral form of symmetric 3x3 tensors and isotropic tensor functions of them, exact at coalescing
+/// eigenvalues.
 ///
-/// Nothing here divides by a difference of eigenvalues: whoever knows the function supplies its divided differences
-/// in a form that is smooth where they coincide, THEORY (1.9), (1.10). T is double, Dual<N> or
+/// Nothing here divides by a difference of eigenvalues: whoever knows the function supplies its divided
+/// differences in a form that is smooth where they coincide, THEORY (1.9), (1.10). T is double, Dual<N> or
 /// Lanes.
 #pragma once
 
@@ -22,9 +23,9 @@ inline constexpr int pair_index[3][2] = {{1, 2}, {0, 2}, {0, 1}};
 
 /// A symmetric tensor S = axes (diag(values) + off-diagonal shears) axes^T, in the eigenvectors of its value.
 ///
-/// The axes are plain numbers. Without derivatives the shears are zero; with dual numbers their values are zero and
-/// their derivatives are the rotation of the eigenvectors times the difference of the eigenvalues, which, unlike the
-/// rotation itself, exists and is continuous at coalescing eigenvalues.
+/// The axes are plain numbers. Without derivatives the shears are zero; with dual numbers their values are
+/// zero and their derivatives are the rotation of the eigenvectors times the difference of the eigenvalues,
+/// which, unlike the rotation itself, exists and is continuous at coalescing eigenvalues.
 template <class T> struct Spectral {
   Vector3<T> values;      ///< in no particular order
   Matrix3<Value<T>> axes; ///< columns
@@ -36,7 +37,8 @@ template <class V> struct JacobiRotations {
   Vector3<V> diagonal, off; ///< off-diagonal entries by pair_index
   std::array<Vector3<V>, 3> axis{Vector3<V>::UnitX(), Vector3<V>::UnitY(), Vector3<V>::UnitZ()};
 
-  /// Turns the axes of one pair until its off-diagonal entry vanishes; false if it was round-off of the diagonal.
+  /// Turns the axes of one pair until its off-diagonal entry vanishes; false if it was round-off of the
+  /// diagonal.
   template <int pair> bool rotate()
   {
     constexpr int a = pair_index[pair][0], b = pair_index[pair][1];
@@ -64,8 +66,8 @@ template <class V> struct JacobiRotations {
   }
 };
 
-/// By Jacobi's method: twice as accurate as QR, also at coalescing eigenvalues, where closed forms are not, and in
-/// two thirds of its time.
+/// By Jacobi's method: twice as accurate as QR, also at coalescing eigenvalues, where closed forms are not,
+/// and in two thirds of its time.
 template <class T> Spectral<T> spectral(const Matrix3<T> &S)
 {
   const Matrix3<Value<T>> A = value(S);
@@ -91,9 +93,9 @@ template <class T> Spectral<T> spectral(const Matrix3<T> &S)
   return out;
 }
 
-/// The logarithmic strain 1/2 ln B of a positive definite B, whose trace 1/2 ln det B the caller knows, usually from
-/// determinants of the factors of B: a sum over eigenvalues carries several times the round-off, which a bulk modulus
-/// would magnify. The values are NaN or infinite if B is not positive definite.
+/// The logarithmic strain 1/2 ln B of a positive definite B, whose trace 1/2 ln det B the caller knows,
+/// usually from determinants of the factors of B: a sum over eigenvalues carries several times the round-off,
+/// which a bulk modulus would magnify. The values are NaN or infinite if B is not positive definite.
 template <class T> Spectral<T> log_strain(const Matrix3<T> &B, const T &trace)
 {
   using std::log;

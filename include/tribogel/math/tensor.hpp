@@ -1,8 +1,8 @@
 /// Fixed-size tensors and the Mandel notation.
 ///
-/// A symmetric tensor S is stored as the 6-vector (S11, S22, S33, r S23, r S13, r S12) with r = sqrt(2), so that
-/// the dot product of two vectors is the double contraction S : T, and a 6x6 matrix is a fourth-order tensor with
-/// both minor symmetries. In the axisymmetric model the axes 1, 2, 3 are r, theta, z.
+/// A symmetric tensor S is stored as the 6-vector (S11, S22, S33, r S23, r S13, r S12) with r = sqrt(2), so
+/// that the dot product of two vectors is the double contraction S : T, and a 6x6 matrix is a fourth-order
+/// tensor with both minor symmetries. In the axisymmetric model the axes 1, 2, 3 are r, theta, z.
 #pragma once
 
 #include <Eigen/Dense>

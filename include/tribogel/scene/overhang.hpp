@@ -8,11 +8,12 @@
 namespace tribogel
 {
 
-/// A face that hangs over the other's edge presses on that one's extension; that is a good picture of a rim that only
-/// just overhangs, and of nothing else. Of its length or area.
+/// A face that hangs over the other's edge presses on that one's extension; that is a good picture of a rim
+/// that only just overhangs, and of nothing else. Of its length or area.
 inline constexpr double largest_overhang = 0.1;
 
-/// The part of a disc's area that is not in another disc of `other` radius with the centre at `distance`; radii > 0.
+/// The part of a disc's area that is not in another disc of `other` radius with the centre at `distance`;
+/// radii > 0.
 inline double disc_overhang(double radius, double other, double distance)
 {
   const double d = std::abs(distance), r = radius, R = other;

@@ -1,5 +1,5 @@
-/// What is simulated: a plain value, built from options by the program and by hand in tests. Units mm, N, s, MPa, rad.
-/// The defaults are the paper's rheometer as src/PAPER.md reads it.
+/// What is simulated: a plain value, built from options by the program and by hand in tests. Units mm, N, s,
+/// MPa, rad. The defaults are the paper's rheometer as src/PAPER.md reads it.
 #pragma once
 
 #include "tribogel/friction/polynomial.hpp"
@@ -24,17 +24,19 @@ struct Specimen {
 /// How the top plate stands above the bottom one (solid model only).
 struct Misalignment {
   std::array<double, 2>
-      offset{};    ///< of the top plate's axis, about which it turns with its gel, from the bottom's [mm]
-  double tilt = 0; ///< of the top plate's face, with its gel, against its axis: about y, before the plate turns [rad]
+      offset{}; ///< of the top plate's axis, about which it turns with its gel, from the bottom's [mm]
+  double tilt =
+      0; ///< of the top plate's face, with its gel, against its axis: about y, before the plate turns [rad]
 
   bool any() const { return offset[0] != 0 || offset[1] != 0 || tilt != 0; }
 };
 
-/// How a specimen's end is held by its plate. Glued is the rheometer; lubricated (free to slide radially, still turned
-/// and moved by the plate) makes uniform states exact and is used by the tests.
+/// How a specimen's end is held by its plate. Glued is the rheometer; lubricated (free to slide radially,
+/// still turned and moved by the plate) makes uniform states exact and is used by the tests.
 enum class PlateBond { glued, lubricated };
 
-/// The defaults were measured on the paper scene (order 2, default steps, ends of phases 2 and 5; 2.8 CPU s with them):
+/// The defaults were measured on the paper scene (order 2, default steps, ends of phases 2 and 5; 2.8 CPU s
+/// with them):
 ///
 ///     elements  grading  unknowns  N [N]    T [N mm]  centre [mm]  CPU [s]
 ///     16        1        3134      289.98   11.442    0.3111       2.3
@@ -46,10 +48,10 @@ enum class PlateBond { glued, lubricated };
 ///     24        30       15186     290.421  11.4386   0.3110       18
 ///     order 1, grading 30, extrapolated from 16 to 48 elements: N = 290.45 +- 0.35, T = 11.440 +- 0.021
 ///
-/// The side walls lie down on the plates over a tenth of a millimetre: uniform meshes do not see that (N falls under
-/// refinement), and without contact of the walls graded ones do not converge (290.14, 289.73, 289.70, 287.76 N with 8,
-/// 12, 16, 24 elements and grading 30). The width of the graded zone, a quarter of the height, is no optimum: half and
-/// double that width changed N by 1e-4.
+/// The side walls lie down on the plates over a tenth of a millimetre: uniform meshes do not see that (N
+/// falls under refinement), and without contact of the walls graded ones do not converge (290.14, 289.73,
+/// 289.70, 287.76 N with 8, 12, 16, 24 elements and grading 30). The width of the graded zone, a quarter of
+/// the height, is no optimum: half and double that width changed N by 1e-4.
 struct MeshParameters {
   int element_order = 2;          ///< 1 (Q1/P0) or 2 (Q2/P1)
   int elements_radial = 12;       ///< along the top radius
@@ -75,15 +77,16 @@ enum class TimeRule {
 
 struct TimeParameters {
   TimeRule rule = TimeRule::sdirk2;
-  double tolerance = 0.1; ///< of the errors that the step control keeps, per cent of the largest values so far
+  double tolerance =
+      0.1; ///< of the errors that the step control keeps, per cent of the largest values so far
 };
 
 struct OutputParameters {
   std::string directory = "tribogel-output";
   bool overwrite = false;
-  bool restart = false;                                       ///< the directory holds a run that goes on
-  bool error_estimate = false;                                ///< of N and T at the phases' ends, by further runs
-  double checkpoint_every = 600;                              ///< wall time between checkpoints [s]
+  bool restart = false;          ///< the directory holds a run that goes on
+  bool error_estimate = false;   ///< of N and T at the phases' ends, by further runs
+  double checkpoint_every = 600; ///< wall time between checkpoints [s]
   double wall_time = std::numeric_limits<double>::infinity(); ///< that the program may take [s]
 };
 
@@ -99,7 +102,8 @@ struct Scene {
   Misalignment misalignment;
   bool round = true;      ///< the specimens are of revolution; false: of a mesh file
   bool even_faces = true; ///< they touch as a whole when pressed; false: what assumes that is undefined
-  /// The side walls may touch the plates, and the top gel's wall may roll onto the bottom gel; else they meet nothing.
+  /// The side walls may touch the plates, and the top gel's wall may roll onto the bottom gel; else they meet
+  /// nothing.
   bool plate_contact = true;
   ContactIntegration contact_integration = ContactIntegration::segments;
   PolynomialFriction<double> friction;

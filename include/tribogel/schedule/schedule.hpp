@@ -1,5 +1,5 @@
-/// The rheometer's schedule: a list of phases, in each of which the top plate travels linearly in time to a given
-/// approach while it turns at a constant rate.
+/// The rheometer's schedule: a list of phases, in each of which the top plate travels linearly in time to a
+/// given approach while it turns at a constant rate.
 #pragma once
 
 #include <cstddef>
@@ -23,8 +23,8 @@ struct Phase {
 
 using Schedule = std::vector<Phase>;
 
-/// Phases from the users' lists: absolute end times [s], total approach at each end [mm], rate in each phase [rad/s].
-/// The lists have equal lengths.
+/// Phases from the users' lists: absolute end times [s], total approach at each end [mm], rate in each phase
+/// [rad/s]. The lists have equal lengths.
 inline Schedule schedule_from_rates(const std::vector<double> &end_times, const std::vector<double> &approach,
                                     const std::vector<double> &rates)
 {
@@ -39,8 +39,8 @@ inline Schedule schedule_from_rates(const std::vector<double> &end_times, const 
 }
 
 /// The same with the angle reached at each phase's end [rad]; within a phase the plate turns uniformly.
-inline Schedule schedule_from_twists(const std::vector<double> &end_times, const std::vector<double> &approach,
-                                     const std::vector<double> &twists)
+inline Schedule schedule_from_twists(const std::vector<double> &end_times,
+                                     const std::vector<double> &approach, const std::vector<double> &twists)
 {
   std::vector<double> rates;
   for (std::size_t k = 0; k < end_times.size(); ++k)
