@@ -85,23 +85,23 @@ PetscErrorCode Contact::SetUp(MPI_Comm on, const Mesh &mesh, const Scene &scene)
 PetscErrorCode Contact::BeginStep(const PlateFrames &frames, const double *U)
 {
   PetscFunctionBeginUser;
-  for (GelContact &gel : gels) PetscCall(gel.BeginStep(frames, U));
+  for (GelOnGel &gel : gels) PetscCall(gel.BeginStep(frames, U));
   PetscFunctionReturn(0);
 }
 
 void Contact::BeginAttempt()
 {
-  for (GelContact &gel : gels) gel.BeginAttempt();
+  for (GelOnGel &gel : gels) gel.BeginAttempt();
 }
 
 PetscErrorCode Contact::AddResidual(const PlateFrames &frames, const double *U, const double *Udot, double *F,
                                     double *magnitude, std::string &failure)
 {
   PetscFunctionBeginUser;
-  for (GelContact &gel : gels) gel.failed_at.reset();
-  for (GelContact &gel : gels)
+  for (GelOnGel &gel : gels) gel.failed_at.reset();
+  for (GelOnGel &gel : gels)
     if (failure.empty()) PetscCall(gel.AddResidual(frames, U, Udot, F, magnitude, failure));
-  for (const PlateContact &plate : plates) plate.AddResidual(frames, U, F, magnitude);
+  for (const WallOnPlate &plate : plates) plate.AddResidual(frames, U, F, magnitude);
   PetscFunctionReturn(0);
 }
 
@@ -109,10 +109,10 @@ PetscErrorCode Contact::AddJacobian(const PlateFrames &frames, const double *U, 
                                     double shift, Mat A, std::string &failure)
 {
   PetscFunctionBeginUser;
-  for (GelContact &gel : gels) gel.failed_at.reset();
-  for (GelContact &gel : gels)
+  for (GelOnGel &gel : gels) gel.failed_at.reset();
+  for (GelOnGel &gel : gels)
     if (failure.empty()) PetscCall(gel.AddJacobian(frames, U, Udot, shift, A, failure));
-  for (const PlateContact &plate : plates) PetscCall(plate.AddJacobian(frames, U, A));
+  for (const WallOnPlate &plate : plates) PetscCall(plate.AddJacobian(frames, U, A));
   PetscFunctionReturn(0);
 }
 
@@ -120,7 +120,7 @@ PetscErrorCode Contact::UpdateCandidates(const PlateFrames &frames, const double
 {
   PetscFunctionBeginUser;
   covered = true;
-  for (GelContact &gel : gels) {
+  for (GelOnGel &gel : gels) {
     bool inside;
     PetscCall(gel.UpdateCandidates(frames, U, inside));
     covered = covered && inside;
@@ -131,21 +131,21 @@ PetscErrorCode Contact::UpdateCandidates(const PlateFrames &frames, const double
 PetscErrorCode Contact::AddPattern(Mat A) const
 {
   PetscFunctionBeginUser;
-  for (const GelContact &gel : gels) PetscCall(gel.AddPattern(A));
-  for (const PlateContact &plate : plates) PetscCall(plate.AddPattern(A));
+  for (const GelOnGel &gel : gels) PetscCall(gel.AddPattern(A));
+  for (const WallOnPlate &plate : plates) PetscCall(plate.AddPattern(A));
   PetscFunctionReturn(0);
 }
 
 void Contact::AddRoundOff(double *magnitude) const
 {
-  for (const GelContact &gel : gels) gel.AddRoundOff(magnitude);
-  for (const PlateContact &plate : plates) plate.AddRoundOff(magnitude);
+  for (const GelOnGel &gel : gels) gel.AddRoundOff(magnitude);
+  for (const WallOnPlate &plate : plates) plate.AddRoundOff(magnitude);
 }
 
 Wrench Contact::WallReaction(const double *U) const
 {
   Wrench wrench;
-  for (const PlateContact &plate : plates) wrench += plate.ReactionOfTopPlate(U);
+  for (const WallOnPlate &plate : plates) wrench += plate.ReactionOfTopPlate(U);
   return wrench;
 }
 
@@ -154,7 +154,7 @@ PetscErrorCode Contact::Results(const PlateFrames &frames, const double *U, cons
 {
   PetscFunctionBeginUser;
   results = {};
-  for (GelContact &gel : gels) {
+  for (GelOnGel &gel : gels) {
     SurfaceResults surface;
     double force, torque;
     PetscCall(gel.Results(frames, U, Udot, surface, force, torque));

@@ -2,8 +2,8 @@
 /// the plates. Every slave node belongs to exactly one of them.
 #pragma once
 
-#include "contact/gel_contact.hpp"
-#include "contact/plate_contact.hpp"
+#include "contact/gel_on_gel.hpp"
+#include "contact/wall_on_plate.hpp"
 
 namespace tribogel
 {
@@ -57,21 +57,21 @@ public:
   Wrench WallReaction(const double *U) const;
 
   bool between_gels() const { return !gels.empty(); }
-  const GelContact &lower_face() const { return gels.front(); }
+  const GelOnGel &lower_face() const { return gels.front(); }
   double overhang() const { return gels.front().overhang; }
 
   /// Reference place on the top gel of a facet that could not be evaluated last; empty: there was none.
   std::optional<std::array<double, 3>> failed_at() const
   {
-    for (const GelContact &gel : gels)
+    for (const GelOnGel &gel : gels)
       if (gel.failed_at) return gel.failed_at;
     return {};
   }
 
 private:
   MPI_Comm comm = MPI_COMM_NULL;
-  std::vector<GelContact> gels;
-  std::vector<PlateContact> plates;
+  std::vector<GelOnGel> gels;
+  std::vector<WallOnPlate> plates;
 };
 
 } // namespace tribogel

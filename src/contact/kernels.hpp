@@ -2,9 +2,9 @@
 /// once (kernels.cpp), for the program and for the tests of the operators.
 #pragma once
 
-#include "tribogel/contact/condition_slope.hpp"
-#include "tribogel/contact/quad_elements.hpp"
-#include "tribogel/contact/quad_mortar.hpp"
+#include "tribogel/contact/node/condition_slope.hpp"
+#include "tribogel/contact/surface/element_mortar.hpp"
+#include "tribogel/contact/surface/mortar_kernel.hpp"
 #include "tribogel/friction/polynomial.hpp"
 
 namespace tribogel

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "mesh/mesh.hpp"
-#include "tribogel/contact/axisymmetric_state.hpp"
-#include "tribogel/contact/quad_facet.hpp"
+#include "tribogel/contact/curve/state.hpp"
+#include "tribogel/contact/surface/facet.hpp"
 
 namespace tribogel
 {

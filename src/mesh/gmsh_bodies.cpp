@@ -3,7 +3,7 @@
 #include "mesh/gmsh_file.hpp"
 #include "mesh/gmsh_groups.hpp"
 #include "mesh/hexahedron.hpp"
-#include "scene/user_error.hpp"
+#include "support/user_error.hpp"
 
 #include <boost/pending/disjoint_sets.hpp>
 

@@ -1,8 +1,8 @@
 #include "mesh/gmsh_file.hpp"
 
 #include "mesh/gmsh_tables.hpp"
-#include "scene/parse.hpp"
-#include "scene/user_error.hpp"
+#include "support/parse.hpp"
+#include "support/user_error.hpp"
 
 #include <cstdlib>
 #include <set>

@@ -1,6 +1,6 @@
 #include "mesh/gmsh_groups.hpp"
 
-#include "scene/nearest_name.hpp"
+#include "options/nearest_name.hpp"
 
 namespace tribogel
 {

@@ -1,6 +1,6 @@
 #include "mesh/gmsh_tables.hpp"
 
-#include "scene/user_error.hpp"
+#include "support/user_error.hpp"
 
 #include <map>
 #include <string_view>

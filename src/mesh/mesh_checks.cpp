@@ -1,8 +1,8 @@
 #include "mesh/mesh_checks.hpp"
 
 #include "mesh/outer_face.hpp"
-#include "scene/user_error.hpp"
-#include "tribogel/contact/quad_search.hpp"
+#include "support/user_error.hpp"
+#include "tribogel/contact/surface/search.hpp"
 
 #include <algorithm>
 #include <cmath>

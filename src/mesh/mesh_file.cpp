@@ -4,8 +4,8 @@
 #include "mesh/face.hpp"
 #include "mesh/gmsh_bodies.hpp"
 #include "mesh/mesh_checks.hpp"
-#include "scene/first_process.hpp"
-#include "scene/parse.hpp"
+#include "support/first_process.hpp"
+#include "support/parse.hpp"
 
 #include <algorithm>
 #include <cmath>

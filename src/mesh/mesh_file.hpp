@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mesh/blocks.hpp"
-#include "scene/scene_input.hpp"
+#include "options/scene_input.hpp"
 
 #include <petscsys.h>
 

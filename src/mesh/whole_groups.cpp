@@ -1,7 +1,7 @@
 /// Faces that are missing from the groups of plates and contact faces.
 #include "mesh/mesh_checks.hpp"
 #include "mesh/outer_face.hpp"
-#include "scene/user_error.hpp"
+#include "support/user_error.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "observe/checkpoint.hpp"
 
 #include "observe/record_numbers.hpp"
-#include "scene/first_process.hpp"
+#include "support/first_process.hpp"
 #include "support/stop_signals.hpp"
 #include "support/version.hpp"
 

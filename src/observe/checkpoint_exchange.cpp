@@ -1,6 +1,6 @@
 #include "observe/checkpoint_exchange.hpp"
 
-#include "scene/first_process.hpp"
+#include "support/first_process.hpp"
 
 namespace tribogel
 {

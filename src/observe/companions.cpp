@@ -3,7 +3,7 @@
 #include "mesh/cylinder.hpp"
 #include "mesh/meridian.hpp"
 #include "observe/cost.hpp"
-#include "scene/parse.hpp"
+#include "support/parse.hpp"
 #include "support/petsc_session.hpp"
 #include "support/stop_signals.hpp"
 

@@ -1,6 +1,6 @@
 #include "observe/measure.hpp"
 
-#include "tribogel/contact/axis_value.hpp"
+#include "tribogel/contact/curve/axis_value.hpp"
 #include "tribogel/friction/rheometer.hpp"
 
 #include <algorithm>

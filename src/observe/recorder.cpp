@@ -1,6 +1,6 @@
 #include "observe/recorder.hpp"
 
-#include "scene/first_process.hpp"
+#include "support/first_process.hpp"
 
 #include <algorithm>
 #include <array>

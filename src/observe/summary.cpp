@@ -1,7 +1,7 @@
 #include "observe/summary.hpp"
 
-#include "scene/first_process.hpp"
 #include "support/files.hpp"
+#include "support/first_process.hpp"
 #include "support/version.hpp"
 
 #include <nlohmann/json.hpp>

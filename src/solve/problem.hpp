@@ -4,11 +4,11 @@
 
 #include "bulk/bulk.hpp"
 #include "contact/contact.hpp"
+#include "linear/contact_pc.hpp"
+#include "linear/direct_solver.hpp"
 #include "mesh/cylinder.hpp"
 #include "mesh/face.hpp"
 #include "mesh/mesh.hpp"
-#include "solve/contact_pc.hpp"
-#include "solve/direct_solver.hpp"
 #include "solve/failure.hpp"
 #include "solve/log_events.hpp"
 #include "solve/observer.hpp"

@@ -1,5 +1,5 @@
 /// How long steps may be before their errors are known: at a phase's start, at the first touch, at all.
-#include "scene/material_input.hpp"
+#include "options/material_input.hpp"
 #include "solve/problem.hpp"
 #include "tribogel/math/sdirk2.hpp"
 

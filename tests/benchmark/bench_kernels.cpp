@@ -1,7 +1,7 @@
 // Kernels against the machine: a material point, residual and tangent of a cell, mortar integrals of a pair
 // of facets, each with a plain count of its arithmetic; and what this core does at best in cache and from
 // memory.
-#include "tribogel/contact/quad_mortar.hpp"
+#include "tribogel/contact/surface/mortar_kernel.hpp"
 #include "tribogel/element/mean_dilatation.hpp"
 #include "tribogel/kinematics/axisymmetric.hpp"
 #include "tribogel/kinematics/solid.hpp"

@@ -4,7 +4,7 @@
 /// the other way round.
 #include "observe/checkpoint.hpp"
 #include "probe.hpp"
-#include "scene/user_error.hpp"
+#include "support/user_error.hpp"
 
 #include <filesystem>
 

@@ -35,7 +35,7 @@ class CheckLayers(unittest.TestCase):
         self.assertIn("to its right", line)
 
     def test_physics_may_not_include_machine(self):
-        self.assertIn("to its right", self.only("include/tribogel/contact/c.hpp", '#include "mesh/m.hpp"\n'))
+        self.assertIn("to its right", self.only("include/tribogel/contact/node/c.hpp", '#include "mesh/m.hpp"\n'))
 
     def test_siblings(self):
         self.assertIn("siblings", self.only("include/tribogel/material/o.hpp", '#include "tribogel/friction/f.hpp"\n'))

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "contact/kernels.hpp"
-#include "tribogel/contact/axisymmetric_contact.hpp"
+#include "tribogel/contact/curve/operator.hpp"
 #include "tribogel/friction/polynomial.hpp"
 
 #include <functional>
@@ -50,11 +50,11 @@ inline SurfaceReference flat(int order, const std::vector<double> &radii, double
 }
 
 struct ContactScene {
-  ContactGeometry geometry;
+  CurveGeometry geometry;
   ContactState<double> state;
 
   ContactScene(const SurfaceReference &slave, const SurfaceReference &master,
-               const ContactParameters &parameters)
+               const CurveParameters &parameters)
       : geometry(slave, master, parameters)
   {
     const auto rest = [](SurfaceState<double> &surface, std::size_t nodes) {
@@ -126,7 +126,7 @@ Eigen::Matrix<T, Eigen::Dynamic, 1> whole_residual(const ContactScene &scene, co
                                                    const std::vector<std::pair<int, int>> &pairs,
                                                    const Law &law)
 {
-  const ContactGeometry &geometry = scene.geometry;
+  const CurveGeometry &geometry = scene.geometry;
   const LineChain &chain = geometry.slave_chain;
   const auto x = positions(geometry.slave, state.slave), y = positions(geometry.master, state.master);
   std::vector<PlanePoint<T>> n;
@@ -173,14 +173,14 @@ struct Assembled {
 
 inline std::vector<std::pair<int, int>> pairs_of_scene(const ContactScene &scene)
 {
-  return AxisymmetricContact(scene.geometry).candidate_pairs(scene.state, 0);
+  return CurveContact(scene.geometry).candidate_pairs(scene.state, 0);
 }
 
 /// Residual and Jacobian by the operator, node by node, as a solver would assemble them.
 inline Assembled assemble(const ContactScene &scene, const std::vector<std::pair<int, int>> &pairs,
                           const Law &law, bool derivatives)
 {
-  AxisymmetricContact contact(scene.geometry);
+  CurveContact contact(scene.geometry);
   const int slaves = scene.slave_nodes(), masters = scene.master_nodes(), n = scene.unknowns();
   Assembled out{contact.update(scene.state, pairs, derivatives), Eigen::VectorXd::Zero(n), {}, {}};
   if (derivatives) out.jacobian.setZero(n, n);

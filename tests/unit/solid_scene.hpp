@@ -3,7 +3,7 @@
 #pragma once
 
 #include "contact/kernels.hpp"
-#include "tribogel/contact/solid_contact.hpp"
+#include "tribogel/contact/surface/operator.hpp"
 #include "tribogel/friction/polynomial.hpp"
 
 #include <functional>
@@ -37,15 +37,15 @@ inline QuadReference quad_grid(int nx, int ny, double size_x, double size_y, int
 }
 
 struct SolidScene {
-  SolidGeometry geometry;
+  SurfaceGeometry geometry;
   ContactState<double> state;
 
   SolidScene(QuadReference slave, QuadReference master, int order, bool exact_cells = true)
       : SolidScene(std::move(slave), std::move(master),
-                   SolidParameters{.order = order, .softer_modulus = 0.7, .exact_cells = exact_cells})
+                   SurfaceParameters{.order = order, .softer_modulus = 0.7, .exact_cells = exact_cells})
   {
   }
-  SolidScene(QuadReference slave, QuadReference master, const SolidParameters &parameters)
+  SolidScene(QuadReference slave, QuadReference master, const SurfaceParameters &parameters)
       : geometry(std::move(slave), std::move(master), parameters)
   {
     state.slave.u.assign(geometry.slave.X.size(), Vector3<double>::Zero());
@@ -58,9 +58,9 @@ struct SolidScene {
   int masters() const { return static_cast<int>(geometry.master.X.size()); }
 
   /// Residual by unknown: u of the slave's nodes, u of the master's, multipliers.
-  template <class Law> Eigen::VectorXd residual(const Law &law, const SolidContact::Pairs &pairs) const
+  template <class Law> Eigen::VectorXd residual(const Law &law, const SurfaceContact::Pairs &pairs) const
   {
-    SolidContact contact(geometry);
+    SurfaceContact contact(geometry);
     const MortarReport report = contact.update(state, pairs, false);
     Eigen::VectorXd F = Eigen::VectorXd::Zero(6 * slaves() + 3 * masters());
     if (report.status != MortarStatus::ok) return F.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -116,7 +116,7 @@ inline void make_general(SolidScene &scene, double load, unsigned seed)
 /// entry. Every `stride`th column is compared.
 template <class Law> double jacobian_error(const SolidScene &scene, const Law &law, Eigen::Index stride)
 {
-  SolidContact contact(scene.geometry);
+  SurfaceContact contact(scene.geometry);
   const auto pairs = contact.candidate_pairs(scene.state, 0.1);
   if (contact.update(scene.state, pairs, true).status != MortarStatus::ok) return 1;
   const Eigen::Index size = 6 * scene.slaves() + 3 * scene.masters();

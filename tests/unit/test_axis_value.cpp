@@ -1,6 +1,6 @@
 /// Pressure and height on the axis of a curve of order 2, from the two nodes next to it: right for parabolas,
 /// on uniform, graded and curved facets, and of fourth order in the facets' length for what is none.
-#include "tribogel/contact/axis_value.hpp"
+#include "tribogel/contact/curve/axis_value.hpp"
 
 #include <gtest/gtest.h>
 

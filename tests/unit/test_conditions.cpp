@@ -1,5 +1,5 @@
 /// Contact and friction conditions at one node: zeros, derivatives, ties.
-#include "tribogel/contact/conditions.hpp"
+#include "tribogel/contact/node/condition.hpp"
 #include "tribogel/friction/polynomial.hpp"
 
 #include <gtest/gtest.h>

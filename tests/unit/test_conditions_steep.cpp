@@ -1,6 +1,6 @@
 /// Contact conditions of laws that are not smooth at v = 0 or p = 0: exact zeros, derivatives, rest, Newton's
 /// method over decades.
-#include "tribogel/contact/condition_slope.hpp"
+#include "tribogel/contact/node/condition_slope.hpp"
 #include "tribogel/friction/polynomial.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 /// The multiplier's dual basis: biorthogonal, adds up to one, and the vanishing axis weight of quadratic
 /// facets.
-#include "tribogel/contact/line_facet.hpp"
+#include "tribogel/contact/curve/facet.hpp"
 
 #include <gtest/gtest.h>
 

@@ -364,7 +364,7 @@ TEST(Rheometer, MeansOfPowersOverAFace)
   }
 }
 
-/// Under uniform pressure the torque of a ring is T/N = sum b_m omega^m <r^(m + 1)> (C12), and the
+/// Under uniform pressure the torque of a ring is T/N = sum b_m omega^m <r^(m + 1)>, and the
 /// coefficient that it gives is the area mean of mu: of a constant one that constant, where the disc's
 /// formula would say 0.153 for 0.1.
 TEST(Rheometer, CoefficientsOfARing)

@@ -3,7 +3,7 @@
 ///     K u + D l = f,    H u + Z l = c,
 ///
 /// where nothing is left out: the condensed solution is that of the whole.
-#include "solve/interface_node.hpp"
+#include "linear/interface_node.hpp"
 
 #include <gtest/gtest.h>
 

@@ -23,7 +23,7 @@ struct Mortar {
       : x(positions(scene.geometry.slave, scene.state.slave)),
         y(positions(scene.geometry.master, scene.state.master))
   {
-    const ContactGeometry &geometry = scene.geometry;
+    const CurveGeometry &geometry = scene.geometry;
     for (int a = 0; a < scene.slave_nodes(); ++a)
       n.push_back(nodal_normal<double>(geometry.slave_chain, a, geometry.nodes[a].on_axis,
                                        [&](int b) { return x[b]; }));

@@ -41,7 +41,7 @@ QuadReference narrow_edge(int order, double width)
 Pressed pressed(SolidScene scene)
 {
   for (auto &lambda : scene.state.multiplier) lambda = {0, 0, 1};
-  SolidContact contact(scene.geometry);
+  SurfaceContact contact(scene.geometry);
   Pressed sum{contact.update(scene.state, contact.candidate_pairs(scene.state, 0), false)};
   for (int a = 0; a < scene.slaves(); ++a) {
     NodeBlock block;
@@ -101,7 +101,7 @@ TEST(NarrowFacets, JacobianIsTheDerivative)
     SolidScene scene(flat_square(order), narrow_edge(order, 0.2), order);
     make_general(scene, 1, 5);
     scene.state.slave.rotation = scene.state.master.rotation = 0;
-    SolidContact contact(scene.geometry);
+    SurfaceContact contact(scene.geometry);
     EXPECT_GT(contact.update(scene.state, contact.candidate_pairs(scene.state, 0), false).overhang, 0.1);
     EXPECT_LT(jacobian_error(scene, friction, order == 1 ? 1 : 7), 1e-7) << order;
   }

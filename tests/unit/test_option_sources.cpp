@@ -1,8 +1,8 @@
 // Where options come from: words, files and the environment, what is taken, what is refused and what counts.
 // No PETSc.
-#include "scene/command_line.hpp"
-#include "scene/option_order.hpp"
-#include "scene/petsc_limits.hpp"
+#include "options/command_line.hpp"
+#include "options/option_order.hpp"
+#include "options/petsc_limits.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Reading option texts: what is taken, what is refused and in which words. No PETSc.
-#include "scene/command_line.hpp"
-#include "scene/help.hpp"
-#include "scene/nearest_name.hpp"
-#include "scene/option_table.hpp"
-#include "scene/parse.hpp"
+#include "options/command_line.hpp"
+#include "options/help.hpp"
+#include "options/nearest_name.hpp"
+#include "options/option_table.hpp"
+#include "support/parse.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// 20,000 sets of options, right ones and spoiled ones: each is either refused with one line that names an
 /// option and what is allowed, or gives a scene that makes sense.
-#include "scene/option_table.hpp"
-#include "scene/scene_input.hpp"
+#include "options/option_table.hpp"
+#include "options/scene_input.hpp"
 
 #include <gtest/gtest.h>
 

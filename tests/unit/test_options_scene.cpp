@@ -1,8 +1,8 @@
 // Option texts -> Scene: defaults, combinations, refusals, warnings and notes. No PETSc.
-#include "scene/material_input.hpp"
-#include "scene/report.hpp"
-#include "scene/scene_input.hpp"
-#include "scene/stored_options.hpp"
+#include "options/material_input.hpp"
+#include "options/report.hpp"
+#include "options/scene_input.hpp"
+#include "options/stored_options.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

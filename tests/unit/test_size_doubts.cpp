@@ -1,5 +1,5 @@
 /// What is told of the sizes and faces of specimens before a run; by hand.
-#include "scene/scene_input.hpp"
+#include "options/scene_input.hpp"
 
 #include <gtest/gtest.h>
 

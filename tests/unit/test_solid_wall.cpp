@@ -36,7 +36,7 @@ std::vector<bool> crease_of(const QuadReference &wall)
 SolidScene wall_scene(int order, int rows)
 {
   QuadReference wall = rolled_wall(order, 1.2, 1.5, 0.01);
-  SolidParameters parameters{.order = order, .softer_modulus = 0.7};
+  SurfaceParameters parameters{.order = order, .softer_modulus = 0.7};
   for (std::size_t f = 0; f < wall.facets.size(); ++f)
     parameters.left_out.push_back(static_cast<int>(f) % 6 >= rows);
   parameters.on_crease = crease_of(wall);
@@ -53,7 +53,7 @@ TEST(SolidWall, ConstantMultiplierIsAUniformPressureUpToTheCrease)
   for (int order : {1, 2}) {
     SolidScene scene = wall_scene(order, 4);
     scene.state.multiplier.assign(scene.slaves(), {0, 0, 1.3});
-    SolidContact contact(scene.geometry);
+    SurfaceContact contact(scene.geometry);
     const auto pairs = contact.candidate_pairs(scene.state, 0);
     ASSERT_EQ(contact.update(scene.state, pairs, false).status, MortarStatus::ok);
     const Eigen::VectorXd F = scene.residual(law, pairs);
@@ -89,7 +89,7 @@ TEST(SolidWall, NodesOfFacetsThatCannotTouchAreHeldAtZero)
   }
 }
 
-/// W1 with nodes tied to a crease, and with a law that depends on the current area.
+/// The Jacobian with nodes tied to a crease, and with a law that depends on the current area.
 TEST(SolidWall, JacobianIsTheDerivative)
 {
   for (int order : {1, 2})
@@ -109,7 +109,7 @@ TEST(SolidWall, FacetsThatLeanOverTheMasterAndAreNearMayTouch)
     const QuadReference master = plane_master(order);
     const auto rows = [&](const QuadReference &wall) {
       const SolidScene scene(wall, master, order);
-      const auto may = SolidContact(scene.geometry).rolling_facets(scene.state, crease_of(wall)).touch;
+      const auto may = SurfaceContact(scene.geometry).rolling_facets(scene.state, crease_of(wall)).touch;
       const auto count = static_cast<int>(std::count(may.begin(), may.end(), true));
       EXPECT_EQ(count % 3, 0);
       return count / 3;

@@ -1,8 +1,8 @@
 /// Side walls: the node at a rigid plate, the curve that starts at a crease, the facets that may roll on.
 #include "contact_scene.hpp"
 
-#include "tribogel/contact/plate.hpp"
-#include "tribogel/contact/rolling.hpp"
+#include "tribogel/contact/curve/rolling.hpp"
+#include "tribogel/contact/node/plate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ using testing::whole_residual;
 
 const Vector3<double> up(0, 0, 1), down(0, 0, -1);
 
-TEST(PlateContact, AnOpenNodeCarriesNothingAndAClosedOneIsHeldAtThePlate)
+TEST(WallOnPlate, AnOpenNodeCarriesNothingAndAClosedOneIsHeldAtThePlate)
 {
   const Vector3<double> lambda(0.3, -0.2, -1.7); // pressed down by a plate above
   const PlateNodeBlock closed = plate_node(-0.01, up, lambda, 0.7, 5);
@@ -41,7 +41,7 @@ TEST(PlateContact, AnOpenNodeCarriesNothingAndAClosedOneIsHeldAtThePlate)
   EXPECT_NEAR(below.condition[2], -0.7 * 5 * 0.01, 1e-13);
 }
 
-TEST(PlateContact, AnInclinedPlateIsTheLevelOneTurned)
+TEST(WallOnPlate, AnInclinedPlateIsTheLevelOneTurned)
 {
   const double angle = 0.3;
   Matrix3<double> Q = Matrix3<double>::Identity();
@@ -61,7 +61,7 @@ TEST(PlateContact, AnInclinedPlateIsTheLevelOneTurned)
   }
 }
 
-TEST(PlateContact, DerivativesAreThoseOfTheRows)
+TEST(WallOnPlate, DerivativesAreThoseOfTheRows)
 {
   constexpr double h = 1e-6;
   for (const Vector3<double> &outward : {up, down, Vector3<double>(0.6, 0, 0.8)})
@@ -102,12 +102,12 @@ SurfaceReference rolled_wall(int order, const std::vector<double> &s, double lyi
 
 ContactScene wall_scene(int order, int facets, double disorder)
 {
-  const ContactParameters parameters{.order = order,
-                                     .twist_length = 7.3,
-                                     .softer_modulus = 1.7,
-                                     .carries_multiplier = {},
-                                     .facets_in_contact = facets,
-                                     .starts_at_crease = true};
+  const CurveParameters parameters{.order = order,
+                                   .twist_length = 7.3,
+                                   .softer_modulus = 1.7,
+                                   .carries_multiplier = {},
+                                   .facets_in_contact = facets,
+                                   .starts_at_crease = true};
   return {rolled_wall(order, breaks(6, 0, 2.1, disorder, 3), 1.5, 0.8, 0.02),
           flat(order, breaks(11, 3, 8, 0.6, 5), 0), parameters};
 }

@@ -5,7 +5,7 @@
 #include "gmsh_writer.hpp"
 
 #include "mesh/mesh_checks.hpp"
-#include "scene/user_error.hpp"
+#include "support/user_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "gmsh_writer.hpp"
 #include "solids.hpp"
 
-#include "scene/user_error.hpp"
+#include "support/user_error.hpp"
 
 namespace tribogel::test
 {

@@ -1,4 +1,4 @@
-/// C3, force and torque balance: in each row of a run of the paper scene the top plate's reactions equal the
+/// Force and torque balance: in each row of a run of the paper scene the top plate's reactions equal the
 /// resultants of the contact tractions, and those of the bottom plate. The differences are sums of the
 /// residuals that Newton's method leaves in the gels, so they follow the solver's tolerance and nothing else.
 #include "scenes.hpp"

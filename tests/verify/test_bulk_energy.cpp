@@ -1,4 +1,4 @@
-/// Energy of one gel between its plates, W7 without contact: work of the plates = stored + dissipated. The
+/// Energy of one gel between its plates without contact: work of the plates = stored + dissipated. The
 /// work is the trapezoidal sum of N d(approach) + T d(rotation) over the steps. A hyperelastic gel errs by
 /// the quadrature alone, second order in dt; a viscoelastic one by the time rule, first order or second.
 #include "bulk_scenes.hpp"

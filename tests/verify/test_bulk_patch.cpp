@@ -9,7 +9,7 @@
 ///
 /// solved here by bisection, on a mesh whose inner vertices are moved.
 ///
-/// Frame, B8: turning and lifting the whole body leaves every nodal force as it is. In any state at all the
+/// Frame: turning and lifting the whole body leaves every nodal force as it is. In any state at all the
 /// nodal forces have no resultant along Z and no moment about Z.
 #include "bulk_scenes.hpp"
 

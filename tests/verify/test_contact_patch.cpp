@@ -1,4 +1,4 @@
-/// C1, contact patch test through the whole program: two discs on lubricated plates, pressed together by up
+/// Contact patch test through the whole program: two discs on lubricated plates, pressed together by up
 /// to 20 %, with meshes that do not match across the contact. The exact state is homogeneous uniaxial
 /// compression; the numbers come from its scalar equations (uniform_compression.hpp): stretches of each body,
 /// one pressure p at every contact node, N = p times the current area, and affine positions of all nodes. All

@@ -1,4 +1,4 @@
-/// C2, rigid co-rotation through the whole program: both plates turn together for hundreds of revolutions
+/// Rigid co-rotation through the whole program: both plates turn together for hundreds of revolutions
 /// under load. Exact: no slip, no torque, and the normal force of the scene that does not turn, to round-off;
 /// and a relative rotation gives the same torque whether the bottom plate stands still or both turn.
 #include "scenes.hpp"

@@ -1,6 +1,6 @@
 /// Factors that outlive their matrix: solutions are those of the matrix at hand, and factorisations fewer
 /// than solves for as long as the matrix changes little.
-#include "solve/direct_solver.hpp"
+#include "linear/direct_solver.hpp"
 #include "support/petsc_handles.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-/// W7, energy of the paper scene: work of the plates = stored + viscous dissipation + frictional dissipation.
+/// Energy of the paper scene: work of the plates = stored + viscous dissipation + frictional dissipation.
 /// The residual is of backward Euler and the sums in time, first order in dt (second where no dashpot works),
 /// down to a floor of the mesh: the contact holds the weighted gap, so sliding surfaces leave the normal
 /// tractions a little work. Where they stick there is none.

@@ -1,4 +1,4 @@
-/// Hertz's contact, C5: for the measured force N
+/// Hertz's contact: for the measured force N
 ///
 ///     a^3 = 3 N R/(4 E*),   p = 3 N/(2 pi a^2) sqrt(1 - r^2/a^2),   approach = a^2/R,   1/E* = 2 (1 -
 ///     nu^2)/E.
@@ -31,7 +31,7 @@ struct Errors {
   double travel = 0; ///< of the plate then [mm]
 };
 
-void add_load(const HertzScene &is, const Recorder &recorder, const std::vector<GelContact::Weight> &weights,
+void add_load(const HertzScene &is, const Recorder &recorder, const std::vector<GelOnGel::Weight> &weights,
               Errors &sum)
 {
   const Measurement &m = recorder.rows.back().measurement;

@@ -1,10 +1,10 @@
 /// A Hertz contact that is turned. With N and E* the radius a and the pressure are Hertz's (hertz.hpp); equal
 /// bodies press without radial slip, friction or not.
 ///
-/// Sliding everywhere, C6: T = 2 pi int mu(omega r) p r^2 dr is 3 pi/16 mu N a for Coulomb, 2/5 b N omega a^2
+/// Sliding everywhere: T = 2 pi int mu(omega r) p r^2 dr is 3 pi/16 mu N a for Coulomb, 2/5 b N omega a^2
 /// for b v, 15 pi/160 b N omega^2 a^3 for b v^2.
 ///
-/// Partial slip, C7 (Lubkin 1951). A bonded punch of radius s that turns by theta_s carries the shear
+/// Partial slip (Lubkin 1951). A bonded punch of radius s that turns by theta_s carries the shear
 /// traction 4 G theta_s r/(pi sqrt(s^2 - r^2)) and the torque 16/3 G s^3 theta_s. Superpose punches from the
 /// stick radius c to a, q(s) ds = 4 G theta_s/pi: all turn r < c alike, and for r > c the traction must be mu
 /// p,

@@ -1,4 +1,4 @@
-/// A block pushed up an incline, C10: at full slip the horizontal force over the weight is
+/// A block pushed up an incline: at full slip the horizontal force over the weight is
 ///
 ///   F/W = (tan alpha + mu)/(1 - mu tan alpha).
 ///

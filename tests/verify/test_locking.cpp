@@ -1,4 +1,4 @@
-/// Locking, B10: a bonded disc of shape factor S = a/(2 h) = 5, slightly compressed. The theory of thin discs
+/// Locking: a bonded disc of shape factor S = a/(2 h) = 5, slightly compressed. The theory of thin discs
 /// (Gent and Lindley 1959 with a finite bulk modulus: parabolic u_R across the height, the pressure uniform
 /// across it, p'' + p'/R - 12 G p/(K h^2) = -12 G e/h^2) gives the apparent modulus
 ///

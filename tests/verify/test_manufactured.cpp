@@ -1,4 +1,4 @@
-/// Manufactured solutions (manufactured.hpp), B6. Rates of the norms over the reference volume: k + 1 in L2,
+/// Manufactured solutions (manufactured.hpp). Rates of the norms over the reference volume: k + 1 in L2,
 /// k in H1 at order k.
 #include "manufactured.hpp"
 #include "solids.hpp"

@@ -1,10 +1,10 @@
 /// A flat punch of radius a on a half-space.
 ///
-/// Indentation without friction by a rigid punch, C9: F = 2 E* a delta. A finite block of width L yields
+/// Indentation without friction by a rigid punch: F = 2 E* a delta. A finite block of width L yields
 /// less, delta = F/(2 E* a) + c F/(E* L) (1 + O(a^2/L^2)), c < 0 the same for similar blocks, so that two
 /// widths give the half-space: delta/F = 2 (delta/F)_2L - (delta/F)_L.
 ///
-/// Torsion of a bonded punch, C8: T = 16/3 G a^3 theta; a finite block errs (a/L)^3 only. Coulomb friction of
+/// Torsion of a bonded punch: T = 16/3 G a^3 theta; a finite block errs (a/L)^3 only. Coulomb friction of
 /// a coefficient that nothing overcomes is the bond.
 ///
 /// The tractions are infinite at the edge, as the root of 1/distance. Meshes whose n-th line from the edge

@@ -1,6 +1,6 @@
-/// Two equal rings on lubricated plates, C12: uniform pressure as under discs (a ring of inner radius A and
+/// Two equal rings on lubricated plates: uniform pressure as under discs (a ring of inner radius A and
 /// outer radius R keeps A/R and presses by the same scalar equation), and in steady rotation the difference
-/// of two C4 integrals,
+/// of two integrals of uniform pressure (test_uniform_pressure.cpp),
 ///
 ///     T/N = 2 sum_m b_m omega^m (R^(m+3) - A^(m+3))/((m+3) (R^2 - A^2)),    N = p pi (R^2 - A^2).
 ///

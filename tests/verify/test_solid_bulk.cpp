@@ -4,9 +4,9 @@
 /// vanish at inner nodes, and those of a plane end add up to P N A, on any mesh (curved cells too: the Gauss
 /// rules do the cofactors of isoparametric cells exactly).
 ///
-/// Frame, B8: x -> Q x + d turns the nodal forces by Q. In any state they have neither resultant nor moment.
+/// Frame: x -> Q x + d turns the nodal forces by Q. In any state they have neither resultant nor moment.
 ///
-/// Torsion, B2, and locking, B10: as in test_torsion.cpp and test_locking.cpp; here the twist is no element
+/// Torsion, and locking: as in test_torsion.cpp and test_locking.cpp; here the twist is no element
 /// of the discrete space, so the errors are those of the mesh and fall under refinement.
 #include "solids.hpp"
 
@@ -261,7 +261,7 @@ TEST(solid_bulk, TorsionConvergesToTheUniversalSolution)
   }
 }
 
-/// B10: same levels in both models; thin disc theory is about 2 % low. Between K/G of 1e4 and 1e5 nothing
+/// Same levels in both models; thin disc theory is about 2 % low. Between K/G of 1e4 and 1e5 nothing
 /// stiffens but the disc: the difference of the models is the outline's.
 TEST(solid_bulk, AThinDiscDoesNotLock)
 {

@@ -1,4 +1,4 @@
-/// Hertz's contact in space, C5 to C7: the scene of hertz.hpp with hexahedra. Too long for every day; the
+/// Hertz's contact in space: the scene of hertz.hpp with hexahedra. Too long for every day; the
 /// tables of tests/README.md come from here.
 #include "hertz.hpp"
 
@@ -73,7 +73,7 @@ TEST(solid_hertz, ACapPressesAndSlidesAsInTheHalfPlane)
   EXPECT_NEAR(m[1].torque / m[0].torque, 1, 0.06);
 }
 
-/// C5, C6: pressed without friction, then slid with mu = b v until T is steady.
+/// Pressed without friction, then slid with mu = b v until T is steady.
 TEST(solid_hertz, DISABLED_PressureAndViscousTorque)
 {
   const double omega = 0.1;
@@ -97,7 +97,7 @@ TEST(solid_hertz, DISABLED_PressureAndViscousTorque)
   EXPECT_LT(std::abs(torque), 0.06);
 }
 
-/// C7: Coulomb friction turned to T = 0.528576 mu N a (stick radius a/2), and beyond to full slip.
+/// Coulomb friction turned to T = 0.528576 mu N a (stick radius a/2), and beyond to full slip.
 TEST(solid_hertz, DISABLED_PartialAndFullSlip)
 {
   constexpr double mu = 0.37, half = 0.225712; // G theta a^2/(mu N) of one half-space

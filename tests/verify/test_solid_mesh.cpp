@@ -4,7 +4,7 @@
 /// to nothing round the wall.
 #include "solids.hpp"
 
-#include "tribogel/contact/quad_facet.hpp"
+#include "tribogel/contact/surface/facet.hpp"
 
 #include <limits>
 #include <numbers>

@@ -1,7 +1,7 @@
 /// A flat punch of radius a on a half-space of hexahedra, without contact: displacements are prescribed below
 /// it.
 ///
-/// C8, bonded and turned: T = 16/3 G a^3 theta; a finite block errs (a/L)^3 only. C9, pressed without
+/// Bonded and turned: T = 16/3 G a^3 theta; a finite block errs (a/L)^3 only. Pressed without
 /// friction: F = 2 E* a delta; a finite block of width and height L errs c a/L, so that two of them give the
 /// half-space: delta/F = 2 (delta/F)_2L - (delta/F)_L.
 ///

@@ -23,7 +23,7 @@ Scene steady_scene(Model model, int order, int elements)
 
 } // namespace
 
-/// W3: on the same radii and heights the solid's N and T differ by what the circle's polygon (order 1) or
+/// On the same radii and heights the solid's N and T differ by what the circle's polygon (order 1) or
 /// parabolas (order 2) make of it, which falls at the elements' order or better. Newton takes at most 12
 /// iterations.
 TEST(solid_rheometer, TendsToTheAxisymmetricModel)
@@ -52,7 +52,7 @@ TEST(solid_rheometer, TendsToTheAxisymmetricModel)
   }
 }
 
-/// C2: both plates turn together by 1000 rad under load. The friction is stiff enough to see any slip.
+/// Both plates turn together by 1000 rad under load. The friction is stiff enough to see any slip.
 TEST(solid_rheometer, CommonRotationLeavesNoTrace)
 {
   for (int order : {1, 2}) {

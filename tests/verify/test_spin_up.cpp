@@ -1,4 +1,4 @@
-/// C11, spin-up of a viscous contact between two elastic discs on lubricated plates: under uniform pressure
+/// Spin-up of a viscous contact between two elastic discs on lubricated plates: under uniform pressure
 /// the law mu = b1 v gives a traction proportional to r, which is that of pure torsion, so the scene is
 /// exactly a damper c in series with two torsional springs:
 ///

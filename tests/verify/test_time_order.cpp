@@ -1,4 +1,4 @@
-/// W8, order in time of both rules: N(t) and T(t) of the paper scene under step halving, through loading,
+/// Order in time of both rules: N(t) and T(t) of the paper scene under step halving, through loading,
 /// early hold and rotation. The limit at each time is extrapolated from the last run and one with half its
 /// step: a single fine run would flatter the order. Each phase ends on a common multiple of the steps.
 #include "scenes.hpp"

@@ -1,4 +1,4 @@
-/// Torque of a bonded viscoelastic cylinder that is turned a little by an angle theta and then held, B5.
+/// Torque of a bonded viscoelastic cylinder that is turned a little by an angle theta and then held.
 /// Simple shear of every point, no volume change, hence for any history of the small twist per length theta/h
 ///
 ///   T(t) = (pi/2) a^4/h [G theta + G_v s],   s' = theta' - s/tau,   tau = eta_D/G_v                 (Maxwell

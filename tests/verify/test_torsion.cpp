@@ -1,4 +1,4 @@
-/// Torsion of an incompressible neo-Hookean cylinder, B2: universal solution r = R/sqrt(lambda), phi = psi Z,
+/// Torsion of an incompressible neo-Hookean cylinder: universal solution r = R/sqrt(lambda), phi = psi Z,
 /// z = lambda Z (Rivlin 1949; psi is the twist per reference length):
 ///
 ///   T = (pi/2) G psi a^4/lambda,   N = (pi/4) G psi^2 a^4/lambda^2 - pi a^2 G (lambda - lambda^-2)

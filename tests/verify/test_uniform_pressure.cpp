@@ -1,4 +1,4 @@
-/// C4, torque of uniform pressure: equal discs on lubricated plates press evenly whatever nu is, and in
+/// Torque of uniform pressure: equal discs on lubricated plates press evenly whatever nu is, and in
 /// steady rotation v = omega r exactly, so with the current radius R
 ///
 ///     T/(N R) = sum_m b_m (omega R)^m 2/(m+3),    mu = sum_m b_m v^m

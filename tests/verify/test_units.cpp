@@ -1,4 +1,4 @@
-/// W6, change of units through the whole program: lengths, moduli and times are scaled by powers of two,
+/// Change of units through the whole program: lengths, moduli and times are scaled by powers of two,
 /// friction coefficients and viscosities accordingly. Newton's method must take the same path and N, T scale
 /// as force and moment; a number with a dimension hidden anywhere (a tolerance, a step size, a
 /// regularisation) breaks it.
