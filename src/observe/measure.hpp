@@ -32,7 +32,7 @@ struct Measurement {
 
 /// One node of a contact surface at a phase's end: r about the axis of its own plate, theta in space. On the
 /// axis of a curve of order 2, whose node there takes no part in the contact, z and the pressure are those of
-/// the parabola through the two nodes next to it (contact/axis_value.hpp).
+/// the parabola through the two nodes next to it (contact/curve/axis_value.hpp).
 struct ProfileRow {
   const char *surface;                              ///< top or bottom
   double reference_r, reference_theta, reference_z; ///< [mm], [rad]

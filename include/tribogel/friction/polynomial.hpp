@@ -6,7 +6,7 @@
 /// m = 0 is the static strength, m >= 1 is smooth, and the slope of 0 < m < 1 at v = 0 is infinite. With a
 /// term of the last kind all rising terms form the steep part, which is asked for its inverse: that is smooth
 /// at rest. (Leaving the terms with m > 1 in the smooth part fails more often and takes three times the
-/// iterations: contact/conditions.hpp.)
+/// iterations: contact/node/condition.hpp.)
 ///
 /// For a < 1 the slope of p^a at p = 0 is infinite too. Below the floor p_0 a parabola takes its place,
 ///
