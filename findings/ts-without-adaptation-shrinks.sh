@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
 # PETSc's TS without step adaptation takes ever shorter steps from one interval of time to the next.
 #
-# With -ts_adapt_type none and TS_EXACTFINALTIME_MATCHSTEP one would expect steps of the length that was set, the last one cut
-# so that it ends at the final time, and the length that was set again when TSSolve is called for the next interval. What
-# happens: where less than two steps are left, and they are not whole, both are made equal, so that also the last but one
-# is shorter; and that shorter length is what TS has from then on. A schedule of intervals, solved one after the other
-# and none of them a multiple of the step, so ends with half the length that was asked for, for good: the run costs twice
-# as much, and a study of the error over the step has another step than it says. Set the step anew before each TSSolve.
+# With -ts_adapt_type none and TS_EXACTFINALTIME_MATCHSTEP one would expect steps of the length that was set,
+# the last one cut so that it ends at the final time, and the length that was set again when TSSolve is
+# called for the next interval. What happens: where less than two steps are left, and they are not whole,
+# both are made equal, so that also the last but one is shorter; and that shorter length is what TS has from
+# then on. A schedule of intervals, solved one after the other and none of them a multiple of the step, so
+# ends with half the length that was asked for, for good: the run costs twice as much, and a study of the
+# error over the step has another step than it says. Set the step anew before each TSSolve.
 #
-# Seen with PETSc 3.18.5 of Debian 12 (bookworm). Needs apt-get and network; 80 MB in a temporary folder, no root.
-# Exit status: 0 as described, 1 when the behaviour is another, 2 when it could not be tried.
+# Seen with PETSc 3.18.5 of Debian 12 (bookworm). Needs apt-get and network; 80 MB in a temporary folder, no
+# root. Exit status: 0 as described, 1 when the behaviour is another, 2 when it could not be tried.
 set -euo pipefail
 
 folder=$(mktemp -d)
@@ -19,7 +20,8 @@ mkdir -p archives/partial root
 : >status
 
 # Debian's packages and all that they need, unpacked beside the system instead of into it.
-apt-get -o Dir::State::status="$folder/status" -o Dir::Cache::archives="$folder/archives" -o Debug::NoLocking=1 \
+apt-get -o Dir::State::status="$folder/status" -o Dir::Cache::archives="$folder/archives" \
+  -o Debug::NoLocking=1 \
   --no-install-recommends --download-only --yes --quiet install \
   python3-petsc4py-real3.18=3.18.5-1 libpetsc-real3.18=3.18.5+dfsg1-1 >apt.log 2>&1 ||
   { tail -3 apt.log >&2; exit 2; }
@@ -75,7 +77,8 @@ OUTPUT
 usr=$folder/root/usr libraries=$folder/root/usr/lib/x86_64-linux-gnu
 export OPAL_PREFIX=$usr OPENBLAS_NUM_THREADS=1
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_ess_singleton_isolated=1
-export PYTHONPATH=$usr/lib/petscdir/petsc3.18/x86_64-linux-gnu-real/lib/python3/dist-packages:$usr/lib/python3/dist-packages
+petsc_python=$usr/lib/petscdir/petsc3.18/x86_64-linux-gnu-real/lib/python3/dist-packages
+export PYTHONPATH=$petsc_python:$usr/lib/python3/dist-packages
 export LD_LIBRARY_PATH=$libraries:$libraries/openmpi/lib:$libraries/blas:$libraries/lapack
 "$usr/bin/python3.11" steps.py >seen 2>errors || { tail -3 errors >&2; exit 2; }
 cat seen
