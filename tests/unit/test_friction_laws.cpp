@@ -42,6 +42,12 @@ const std::vector<Example> examples{
     {"power",
      {0.23, 0.4, 0.03, 0.7, 2e-4},
      [](const Numbers &b, Real v, Real p) { return b[0] * load(p, b[3], b[4]) * std::pow(v + b[2], b[1]); }},
+    {"plateau",
+     {0.05, 0.7, 0.5},
+     [](const Numbers &b, Real v, Real p) { return b[0] * (1 + std::pow(v / b[1], b[2])) * p; }},
+    {"plateau",
+     {0.05, 0.7, 1.5},
+     [](const Numbers &b, Real v, Real p) { return b[0] * (1 + std::pow(v / b[1], b[2])) * p; }},
     {"exponential_decay",
      {0.4, 0.15, 0.3},
      [](const Numbers &b, Real v, Real p) { return (b[1] + (b[0] - b[1]) * std::exp(-v / b[2])) * p; },
@@ -220,7 +226,7 @@ TEST(FrictionLaws, SteepSpeedIsTheInverse)
     EXPECT_NEAR(v.d[1], (at(0.02, 0.03 + h, 0.1) - at(0.02, 0.03 - h, 0.1)) / (2 * h), -1e-4 * v.d[1]);
     EXPECT_NEAR(v.d[2], (at(0.02, 0.03, 0.1 + h) - at(0.02, 0.03, 0.1 - h)) / (2 * h), -1e-4 * v.d[2]);
   }
-  EXPECT_EQ(steep, 2);
+  EXPECT_EQ(steep, 3);
 }
 
 TEST(FrictionLaws, SayWhetherTheyFall)

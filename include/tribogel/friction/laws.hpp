@@ -6,6 +6,7 @@
 #include "tribogel/friction/coulomb.hpp"
 #include "tribogel/friction/exponential_decay.hpp"
 #include "tribogel/friction/friction.hpp"
+#include "tribogel/friction/plateau.hpp"
 #include "tribogel/friction/polynomial.hpp"
 #include "tribogel/friction/power.hpp"
 #include "tribogel/friction/stribeck.hpp"
@@ -45,6 +46,7 @@ inline const std::vector<KnownLaw> &known_laws()
       PolynomialFriction,
       CoulombFriction,
       PowerFriction,
+      PlateauFriction,
       ExponentialDecayFriction,
       StribeckFriction,
       AdsorptionViscousFriction,
