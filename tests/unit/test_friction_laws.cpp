@@ -78,6 +78,12 @@ const std::vector<Example> examples{
      [](const Numbers &b, Real v, Real p) {
        return b[0] * load(p, b[2], b[3]) * std::asinh(v / (2 * b[1]));
      }},
+    {"bounded",
+     {0.3, 0.004, 0.02, 2e-4},
+     [](const Numbers &b, Real, Real p) {
+       const Real q = load(p, 0, b[3]);
+       return std::min(b[0] * p + b[1] * q, b[2] * q);
+     }},
 };
 
 const KnownLaw &known(const std::string &name)

@@ -3,6 +3,7 @@
 
 #include "tribogel/friction/adsorption_viscous.hpp"
 #include "tribogel/friction/asinh.hpp"
+#include "tribogel/friction/bounded.hpp"
 #include "tribogel/friction/coulomb.hpp"
 #include "tribogel/friction/exponential_decay.hpp"
 #include "tribogel/friction/friction.hpp"
@@ -51,6 +52,7 @@ inline const std::vector<KnownLaw> &known_laws()
       StribeckFriction,
       AdsorptionViscousFriction,
       AsinhFriction,
+      BoundedFriction,
       TableFriction
   >();
   // clang-format on
