@@ -19,7 +19,7 @@ import tempfile
 sys.dont_write_bytecode = True
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
 sys.path.insert(0, str(TOOLS))
-from judge import contents, faults_of_refusal, start  # noqa: E402
+from tribogel_tools.refusal import contents, faults_of_refusal, start  # noqa: E402
 
 TIMEOUT = 120  # s
 ALLOWED = "allowed: "

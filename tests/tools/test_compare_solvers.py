@@ -4,8 +4,6 @@
   test_compare_solvers.py TRIBOGEL [--mpirun MPIRUN]
 """
 import csv
-import importlib.machinery
-import importlib.util
 import json
 import pathlib
 import subprocess
@@ -17,11 +15,8 @@ import unittest
 sys.dont_write_bytecode = True
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "tools"))
-import logged_run  # noqa: E402
+from tribogel_tools.cost import compare_solvers, logged_run  # noqa: E402
 
-loader = importlib.machinery.SourceFileLoader("compare_solvers", str(REPOSITORY / "tools" / "compare-solvers"))
-tool = importlib.util.module_from_spec(importlib.util.spec_from_loader("compare_solvers", loader))
-loader.exec_module(tool)
 PROGRAM, MPIRUN = None, "mpirun"
 
 LOG = """Stage Name,Event Name,Rank,Count,Time,Num Messages,Message Length,Num Reductions,FLOP,dof0,e0,2
@@ -51,14 +46,14 @@ class Difference(unittest.TestCase):
     def test_phases_in_both_over_the_largest_value_of_the_reference(self):
         reference = {1: {"N": 3.0}, 2: {"N": -5.0}, 3: {"N": 50.0}}
         phases = {1: {"N": 3.1}, 2: {"N": -5.0}}
-        self.assertAlmostEqual(float(tool.difference(phases, reference, "N")), 100 * 0.1 / 5, delta=1e-3)
-        self.assertEqual(tool.difference({}, reference, "N"), "")
+        self.assertAlmostEqual(float(compare_solvers.difference(phases, reference, "N")), 100 * 0.1 / 5, delta=1e-3)
+        self.assertEqual(compare_solvers.difference({}, reference, "N"), "")
 
 
 class Repeats(unittest.TestCase):
     def test_the_cheapest_of_those_that_got_farthest_counts(self):
         runs = [types.SimpleNamespace(status=status, cpu=cpu) for status, cpu in ((3, 0.5), (0, 2.5), (0, 1.5), (0, 3.5))]
-        self.assertIs(tool.best_of(4, iter(runs).__next__), runs[2])
+        self.assertIs(logged_run.best_of(4, iter(runs).__next__), runs[2])
 
 
 class Comparison(unittest.TestCase):
@@ -104,7 +99,7 @@ class Comparison(unittest.TestCase):
 
     def test_a_run_that_takes_too_long_is_ended(self):
         with tempfile.TemporaryDirectory() as directory:
-            run = logged_run.Run("/bin/sh", ["-c", "sleep 60"], pathlib.Path(directory), limit=0.2)
+            run = logged_run.LoggedRun("/bin/sh", ["-c", "sleep 60"], pathlib.Path(directory), limit=0.2)
         self.assertEqual(run.failure, "stopped after 0.2 s")
 
     def test_nonsense_is_refused_in_one_line(self):

@@ -18,8 +18,9 @@ import numpy as np
 sys.dont_write_bytecode = True
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "tools"))
-import extrapolate as ex  # noqa: E402
-import refinement  # noqa: E402
+from tribogel_tools import extrapolate as ex  # noqa: E402
+from tribogel_tools.command_line import BadInput  # noqa: E402
+from tribogel_tools.convergence import refinement  # noqa: E402
 
 PROGRAM = None
 
@@ -145,7 +146,7 @@ class Reading(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             cases = [(n, "0.01") for n in family.elements] + [(8, t) for t in settings.tolerances[1:]]
             results = [fake_run(folder, family, n, t, force(n, t), 100) for n, t in cases]
-            with self.assertRaisesRegex(refinement.BadInput, "cannot read"):
+            with self.assertRaisesRegex(BadInput, "cannot read"):
                 refinement.read_result(results[0].case, folder)
         self.assertEqual(results[0].counts["cpu_s"], 1.5)
         self.assertAlmostEqual(results[0].value(1, "top_centre"), 0.4, delta=1e-15)

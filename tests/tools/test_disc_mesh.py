@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tools/disc_mesh.py makes the meshes of `-model solid -mesh_grading 1`: as many unknowns as the program, right-handed
+"""The tools' disc_mesh makes the meshes of `-model solid -mesh_grading 1`: as many unknowns as the program, right-handed
 cells, faces on their planes, rims on their circles, the volumes of what the elements can represent."""
 import json
 import math
@@ -13,7 +13,7 @@ import numpy
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
-import disc_mesh  # noqa: E402
+from tribogel_tools.peers import disc_mesh  # noqa: E402
 
 PROGRAM = sys.argv.pop(1)
 SCENE = {"top_radius": 10.0, "top_height": 3.0, "bottom_radius": 12.5, "bottom_height": 3.0, "approach": 0.6}

@@ -19,8 +19,8 @@ import numpy as np
 
 TOOLS = pathlib.Path(__file__).parents[2] / "tools"
 sys.path.insert(0, str(TOOLS))
-from paper import rheometer, runs  # noqa: E402
-from paper.values import Results, Value  # noqa: E402
+from tribogel_tools.paper import rheometer, runs  # noqa: E402
+from tribogel_tools.paper.values import Results, Value  # noqa: E402
 
 PROGRAM = None
 FIGURES = ("fig05", "fig06", "fig07", "fig08", "fig09", "fig10", "fig12", "findings", "doubts", "errors", "energy", "profiles",

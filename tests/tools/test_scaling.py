@@ -5,8 +5,6 @@
 """
 import contextlib
 import csv
-import importlib.machinery
-import importlib.util
 import io
 import math
 import pathlib
@@ -20,13 +18,8 @@ import unittest.mock
 sys.dont_write_bytecode = True
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "tools"))
-import cost_model  # noqa: E402
-import logged_run  # noqa: E402
-import scaling_report  # noqa: E402
+from tribogel_tools.cost import cost_model, logged_run, scaling, scaling_report  # noqa: E402
 
-loader = importlib.machinery.SourceFileLoader("scaling", str(REPOSITORY / "tools" / "scaling"))
-tool = importlib.util.module_from_spec(importlib.util.spec_from_loader("scaling", loader))
-loader.exec_module(tool)
 PROGRAM, MPIRUN = None, "mpirun"
 
 
@@ -39,9 +32,9 @@ def made_up(ranks, dofs, newton, seconds, solves=None, linear=0.0, memory=100.0)
                   "SNESLineSearch": logged_run.Event(newton, 0, 0, 0, 0, 0),
                   "PCSetUp": logged_run.Event(newton, 0.25 * linear, 0, 0, 0, 0)}
     for name in ("event", "seconds"):
-        setattr(run, name, getattr(logged_run.Run, name).__get__(run))
+        setattr(run, name, getattr(logged_run.LoggedRun, name).__get__(run))
     for name in ("newton", "newton_seconds", "linear_seconds", "rest_of_newton"):
-        setattr(run, name, getattr(logged_run.Run, name).fget(run))
+        setattr(run, name, getattr(logged_run.LoggedRun, name).fget(run))
     return run
 
 
@@ -120,7 +113,7 @@ class Report(unittest.TestCase):
     def test_what_is_residual_and_jacobian_is_not_the_solver(self):
         run = made_up(1, 8000, 10, 20.0, linear=17.0)  # an inner set-up counted twice
         run.events |= {"SNESFunctionEval": logged_run.Event(12, 1.5, 0, 0, 0, 0), "SNESJacobianEval": logged_run.Event(10, 6.5, 0, 0, 0, 0)}
-        self.assertAlmostEqual(logged_run.Run.linear_seconds.fget(run), 12, delta=1e-12)
+        self.assertAlmostEqual(logged_run.LoggedRun.linear_seconds.fget(run), 12, delta=1e-12)
 
     def test_what_it_must_state(self):
         runs = {(1, k): made_up(1, n, 10, 1e-3 * n ** 1.25, linear=5e-4 * n ** 1.25, memory=40 + 5e-3 * n)
@@ -138,9 +131,9 @@ class Study(unittest.TestCase):
     def test_the_cheapest_of_those_repeated_counts(self):
         runs = [types.SimpleNamespace(status=status, cpu=cpu, failure="", newton_seconds=1.0, counts={})
                 for status, cpu in ((3, 0.5), (0, 2.5), (0, 1.5), (0, 3.5))]
-        a = tool.parse(["--repeats", "4"])
-        study = tool.Study(a, "program")
-        with unittest.mock.patch.object(tool, "Run", side_effect=runs), contextlib.redirect_stderr(io.StringIO()):
+        a = scaling.parse(["--repeats", "4"])
+        study = scaling.Study(a, "program")
+        with unittest.mock.patch.object(scaling, "LoggedRun", side_effect=runs), contextlib.redirect_stderr(io.StringIO()):
             study.run(1, 6)
         self.assertIs(study.runs[1, 6], runs[2])
 

@@ -15,7 +15,7 @@ import numpy
 sys.dont_write_bytecode = True
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "tools"))
-import speed  # noqa: E402
+from tribogel_tools.cost import speed  # noqa: E402
 
 PROGRAM = None
 
