@@ -1,28 +1,29 @@
-"""Limits and uncertainties of refinement series, for tools/convergence. Numbers only: no files, no runs.
+"""Limits and uncertainties of refinement series. Numbers only: no files, no runs.
 
-A series is a value at several sizes h (mesh or time step). Its limit is v of the fit value(h) = v + C h^p: exact for three
-levels of any ratio, least squares in v, C and p for more. The uncertainty is that of the grid convergence index:
-P. J. Roache, J. Fluids Eng. 116 (1994) 405-413; the choice of factors follows L. Eca, M. Hoekstra, J. Comput. Phys. 262
-(2014) 104-130: 1.25 times the distance of the finest value from the limit when the observed order is credible, 3 when it is
-not, and then of the spread of the values unless they converge too fast.
+A series is a value at several sizes h (mesh or time step). The rule is that of the program's -error_estimate,
+include/tribogel/math/extrapolation.hpp, which says where it is from; tests/extrapolation_cases.txt holds both to the
+same numbers. The fit is value(h) = v + C h^p, least squares in v, C and p; what differs is the highest order that is
+believed, which is 2 in the program, whose meshes are few and coarse.
 """
 import dataclasses
 import math
 
 import numpy as np
 
-LOWEST_ORDER = 0.3
-CREDIBLE = 1.2  # times the order theory allows; more is chance
+LOWEST_ORDER, HIGHEST_ORDER = 0.5, 2.0
+CREDIBLE = 1.2  # times the order that theory allows; what is above is chance
 CONFIRMED_FACTOR, DOUBTFUL_FACTOR = 1.25, 3.0
 ROUND_OFF = 1e-9  # of the value: Newton's tolerance
+ZERO = 1e-10  # of the scale of values that may be 0
+ORDERS = (-4.0, 12.0, 0.05)  # scanned: lowest, highest, step
 VERDICTS = {
-    "confirmed": "orders in the asymptotic range: limit of the fit, 1.25 |finest - limit|",
-    "fast": "observed order above what theory allows: limit with the order of theory, 3 |finest - limit|",
-    "slow": "NOT in the asymptotic range (monotone, order below 0.3): finest value, 3 times spread or distance to the fit",
-    "oscillates": "NOT in the asymptotic range (not monotone): finest value, 3 times the spread",
-    "few levels": "fewer than three levels, no order: finest value, 3 times the spread",
+    "confirmed": "order in the asymptotic range: limit of the fit, 1.25 |finest - limit| and the scatter about the fit",
+    "fast": "order above what is believed, which is taken instead; of three levels the finest value, 3 times the spread",
+    "slow": "order below 0.5, which is taken instead; of three levels the finest value, 3 times the spread or more",
+    "oscillates": "three levels, not monotone: finest value, 3 times the spread",
+    "few levels": "two levels, no order: finest value, 3 times the spread",
     "settled": "no change but round-off: finest value, 3 times the spread",
-    "one level": "nothing to compare with: no uncertainty",
+    "unknown": "one level, nothing to compare with: no uncertainty",
 }
 
 
@@ -44,72 +45,69 @@ class Limit:
         return self.uncertainty / abs(self.value) if self.value else math.nan
 
 
-def order_of_three(h, v):
-    """p of v + C h^p through three monotone values, h falling: the ratio of differences rises with p."""
-    a, b = math.log(h[0] / h[1]), math.log(h[1] / h[2])
-    wanted = (v[0] - v[1]) / (v[1] - v[2])
-
-    def ratio(p):  # (h0^p - h1^p) / (h1^p - h2^p)
-        return math.expm1(a * p) / -math.expm1(-b * p) if p else a / b
-
-    low, high = -20.0, 20.0
-    for _ in range(200):
-        p = 0.5 * (low + high)
-        low, high = (p, high) if ratio(p) < wanted else (low, p)
-    return 0.5 * (low + high)
-
-
-def fit_with_order(h, v, p):
-    """Least squares of v + C h^p for a given p: limit, fitted values, sum of squares. h^p is written (x^p - 1) / p, which
-    has no trouble at p = 0, with x = h / h_finest."""
-    x = np.log(h / h[-1])
-    basis = np.column_stack((np.ones_like(x), np.expm1(p * x) / p if p else x))
-    centre = v[-1]  # differences keep the digits that the values lose
-    (at_finest, slope), *_ = np.linalg.lstsq(basis, v - centre, rcond=None)
-    fitted = basis @ (at_finest, slope)
+def fit_of_order(h, v, p):
+    """Least squares of v + C h^p for a given p, h falling: limit, value at the finest h, sum of squares. h^p is
+    written (x^p - 1)/p, which has no trouble at p = 0, with x = h/h_finest; differences from the finest value keep the
+    digits that the values share."""
+    x, y = np.log(h / h[-1]), v - v[-1]
+    basis = np.expm1(p * x) / p if p else x
+    slope = np.dot(basis - basis.mean(), y) / np.dot(basis - basis.mean(), basis)
+    at_finest = y.mean() - slope * basis.mean()
     limit = at_finest - slope / p if p else math.nan
-    return centre + limit, centre + fitted, float(np.sum((v - centre - fitted) ** 2))
+    return v[-1] + limit, v[-1] + at_finest, float(np.sum((y - at_finest - slope * basis) ** 2))
 
 
-def order_of_many(h, v):
-    """p of the least squares fit: the best of a scan, then golden sections around it."""
-    scan = np.arange(-4, 12.001, 0.05)
-    best = scan[np.argmin([fit_with_order(h, v, p)[2] for p in scan])]
-    low, high, golden = best - 0.05, best + 0.05, (math.sqrt(5) - 1) / 2
+def best_order(h, v):
+    """p of the best fit: the best of a scan, then golden sections around it. Three levels are met exactly."""
+    lowest, highest, step = ORDERS
+    scan = lowest + step * np.arange(round((highest - lowest) / step) + 1)
+    best = scan[np.argmin([fit_of_order(h, v, p)[2] for p in scan])]
+    low, high, golden = best - step, best + step, (math.sqrt(5) - 1) / 2
     while high - low > 1e-12:
         left, right = high - golden * (high - low), low + golden * (high - low)
-        if fit_with_order(h, v, left)[2] <= fit_with_order(h, v, right)[2]:
+        if fit_of_order(h, v, left)[2] <= fit_of_order(h, v, right)[2]:
             high = right
         else:
             low = left
     return 0.5 * (low + high)
 
 
-def extrapolate(sizes, values, theory, scale=0.0):
-    """Limit of a series in any order of levels. theory: the highest order possible; scale: size below whose 1e-10 a
-    difference is round-off whatever the value (a torque before any rotation)."""
-    order = np.argsort(sizes)[::-1]
-    h, v = np.asarray(sizes, float)[order], np.asarray(values, float)[order]
+def judge_by_fit(h, v, spread, highest):
+    p = best_order(h, v)
+    used = min(max(p, LOWEST_ORDER), highest)
+    verdict = "confirmed" if abs(p - used) < 1e-6 else "fast" if p > used else "slow"
+    limit, finest, squares = fit_of_order(h, v, used)
+    distance, misfit = abs(finest - limit), abs(v[-1] - finest)
+    if len(v) > 3:
+        scatter = math.sqrt(squares / (len(v) - 3))
+        return Limit(limit, CONFIRMED_FACTOR * distance + scatter + misfit, p, verdict)
+    if verdict == "confirmed":
+        return Limit(limit, CONFIRMED_FACTOR * distance + misfit, p, verdict)
+    return Limit(float(v[-1]), DOUBTFUL_FACTOR * max(spread, distance), p, verdict)
+
+
+def extrapolate(sizes, values, highest=HIGHEST_ORDER, scale=0.0):
+    """Limit of a series in any order of levels. highest: order that is believed; scale: of values of this kind, below
+    whose 1e-10 a difference is round-off whatever the value (a torque before any rotation)."""
+    coarse_to_fine = np.argsort(sizes)[::-1]
+    h, v = np.asarray(sizes, float)[coarse_to_fine], np.asarray(values, float)[coarse_to_fine]
     finest, spread = float(v[-1]), float(np.ptp(v))
     if len(v) < 2:
-        return Limit(finest, math.nan, math.nan, "one level")
-    if spread <= ROUND_OFF * np.abs(v).max() + 1e-10 * scale:
-        return Limit(finest, DOUBTFUL_FACTOR * spread, math.nan, "settled")
+        return Limit(finest, math.nan, math.nan, "unknown")
+    whole = DOUBTFUL_FACTOR * spread
+    if spread <= ROUND_OFF * np.abs(v).max() + ZERO * scale:
+        return Limit(finest, whole, math.nan, "settled")
     if len(v) < 3:
-        return Limit(finest, DOUBTFUL_FACTOR * spread, math.nan, "few levels")
-    steps = np.diff(v)
-    if not (np.all(steps > 0) or np.all(steps < 0)):
-        return Limit(finest, DOUBTFUL_FACTOR * spread, math.nan, "oscillates")
-    p = order_of_three(h, v) if len(v) == 3 else order_of_many(h, v)
-    fast = p > CREDIBLE * theory
-    limit, fitted, squares = fit_with_order(h, v, theory if fast else p)
-    if p < LOWEST_ORDER:
-        reach = abs(finest - limit) if p > 0 else 0.0
-        return Limit(finest, DOUBTFUL_FACTOR * max(spread, reach), p, "slow")
-    scatter = math.sqrt(squares / (len(v) - 3)) if len(v) > 3 else 0.0
-    misfit = scatter + abs(finest - fitted[-1])
-    factor = DOUBTFUL_FACTOR if fast else CONFIRMED_FACTOR
-    return Limit(limit, factor * abs(finest - limit) + misfit, p, "fast" if fast else "confirmed")
+        return Limit(finest, whole, math.nan, "few levels")
+    rises = np.diff(v) > 0
+    if len(v) == 3 and rises.any() and not rises.all():
+        return Limit(finest, whole, math.nan, "oscillates")
+    return judge_by_fit(h, v, spread, highest)
+
+
+def believed(theory):
+    """The highest order that is believed where theory allows this one."""
+    return CREDIBLE * theory
 
 
 def combine(mesh, steps, common):

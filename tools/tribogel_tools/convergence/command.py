@@ -16,9 +16,10 @@ Orders, limits and uncertainties: the fit v + C h^p, with h = 1/elements for mes
 tolerance (steps follow it where the estimate is of order step^2: SDIRK2's of the error, --time-order 2, and backward
 Euler's of that of a step, --time-order 1) or 1/(accepted steps).
 Uncertainty as in the grid convergence index (P. J. Roache, J. Fluids Eng. 116 (1994) 405; factors as in L. Eca,
-M. Hoekstra, J. Comput. Phys. 262 (2014) 104): 1.25 |finest - limit| where the values are monotone and the observed order
-is from 0.3 to 1.2 times what theory allows (2k for elements of order k, --time-order in time); 3 |finest - limit|, with the order of
-theory, above; otherwise nothing is extrapolated: the finest value and 3 times the spread. Those of mesh and step add up.
+M. Hoekstra, J. Comput. Phys. 262 (2014) 104), by the rule of -error_estimate: 1.25 |finest - limit| and the scatter about
+the fit where the observed order is from 0.5 to 1.2 times what theory allows (2k for elements of order k, --time-order
+in time). An order outside is replaced by the nearer end; of three levels whose order is outside, or that are not
+monotone, nothing is extrapolated: the finest value and 3 times the spread. Those of mesh and step add up.
 
 Writes runs.csv, limits.csv, convergence.md, convergence.png and .pdf into the output directory, the runs below it.
 Status: 0, 2 bad input, 3 some run failed (it is reported, the rest goes on), 130 interrupted (go on with --resume).

@@ -167,12 +167,12 @@ class Study:
             return  # never there, or zero but for round-off
         key = (family, phase, name)
         self.mesh[key] = extrapolate.extrapolate([1 / r.case.elements for r in meshes], values,
-                                                 2 * family.order, self.scale[name])
+                                                 extrapolate.believed(2 * family.order), self.scale[name])
         shared = [r.value(phase, name) for r in steps if r.case.tolerance == self.settings.mesh_tolerance]
         if shared:
             self.steps[key] = extrapolate.extrapolate([self.step_size(r) for r in steps],
                                                       [r.value(phase, name) for r in steps],
-                                                      self.settings.time_order, self.scale[name])
+                                                      extrapolate.believed(self.settings.time_order), self.scale[name])
             self.limits[key] = extrapolate.combine(self.mesh[key], self.steps[key], shared[0])
 
     def of_families(self, phase, name):

@@ -144,7 +144,7 @@ class Results:
         """The function on the meshes of the study, coarse to fine, and its extrapolated limit."""
         values = [function(self.of(f"meshes/{k}")) for k in range(self.detail.levels)]
         sizes = [0.5**k for k in range(self.detail.levels)]
-        return values, extrapolate.extrapolate(sizes, values, THEORY)
+        return values, extrapolate.extrapolate(sizes, values, extrapolate.believed(THEORY))
 
     def fits(self):
         """Form: its run."""
