@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""tools/convergence finds limits and orders that are known, does not trust those that it cannot know, reads what runs
-leave, and goes through a study on tiny meshes.
+"""tools/convergence finds limits and orders that are known, does not trust those that it cannot know, reads
+what runs leave, and goes through a study on tiny meshes.
 
   test_convergence_tool.py TRIBOGEL
 """
@@ -64,17 +64,20 @@ class Extrapolation(unittest.TestCase):
             self.assertLess(abs(noisy.value - 7.3), noisy.uncertainty)
 
     def test_what_does_not_converge_in_order_is_not_extrapolated(self):
-        for values, verdict in (((5.0, 5.4, 5.3), "oscillates"), ((5.0, 5.1, 5.2), "slow"), ((5.0, 5.1, 5.3), "slow")):
+        for values, verdict in (((5.0, 5.4, 5.3), "oscillates"), ((5.0, 5.1, 5.2), "slow"),
+                                ((5.0, 5.1, 5.3), "slow")):
             found = ex.extrapolate(1 / 2.0 ** np.arange(len(values)), values)
             self.assertEqual((found.verdict, found.value), (verdict, values[-1]))
             self.assertGreaterEqual(found.uncertainty, 3 * (max(values) - min(values)) * (1 - 1e-12))
 
     def test_an_order_is_believed_up_to_what_theory_allows_and_a_fifth_more(self):
         for order, verdict in ((2.3, "confirmed"), (2.5, "fast")):
-            self.assertEqual(ex.extrapolate(*power((8, 16, 32), 5, 7, order), ex.believed(2)).verdict, verdict)
+            self.assertEqual(ex.extrapolate(*power((8, 16, 32), 5, 7, order), ex.believed(2)).verdict,
+                             verdict)
 
     def test_the_rule_is_that_of_the_program(self):
-        lines = [line for line in CASES.read_text(encoding="utf-8").splitlines() if line and not line.startswith("#")]
+        lines = [line for line in CASES.read_text(encoding="utf-8").splitlines() if line
+                 and not line.startswith("#")]
         self.assertEqual(len(lines), 16)
         for line in lines:
             sizes, values, scale, verdict, *expected = (cell.strip() for cell in line.split("|"))
@@ -91,7 +94,8 @@ class Extrapolation(unittest.TestCase):
         self.assertAlmostEqual(both.uncertainty, 0.07, delta=1e-12)
 
     def test_agreement(self):
-        a, b, c = (ex.Limit(value, u, 2, "confirmed") for value, u in ((10.0, 0.1), (10.25, 0.2), (10.6, 0.2)))
+        a, b, c = (ex.Limit(value, u, 2, "confirmed")
+                   for value, u in ((10.0, 0.1), (10.25, 0.2), (10.6, 0.2)))
         unknown = ex.Limit(10.0, float("nan"), 2, "unknown")
         self.assertTrue(a.agrees(b) and b.agrees(a) and b.agrees(c))
         self.assertFalse(a.agrees(c))
@@ -126,10 +130,12 @@ def fake_run(folder, family, elements, tolerance, force, steps):
     end = dict.fromkeys(refinement.QUANTITIES.values())  # null where nothing is known
     end |= {"phase": 1, "time_s": 27.0, "normal_force_N": force, "contact_radius_mm": 10.9}
     summary = {"phases": [end], "cost": {"cpu_s": 1.5, "peak_memory_MB": 48},
-               "counts": {"unknowns": elements**2, "accepted_steps": steps, "rejected_steps": 3, "newton_iterations": 99}}
+               "counts": {"unknowns": elements**2, "accepted_steps": steps, "rejected_steps": 3,
+                          "newton_iterations": 99}}
     (directory / "summary.json").write_text(json.dumps(summary))
     (directory / "profile.csv").write_text("phase,surface,reference_r_mm,reference_z_mm,z_mm,status\n"
-                                           "1,top,4,0.5,0.2,slip\n1,top,0,0.5,0.1,slip\n1,top,9,0.5,0.375,open\n"
+                                           "1,top,4,0.5,0.2,slip\n1,top,0,0.5,0.1,slip\n"
+                                           "1,top,9,0.5,0.375,open\n"
                                            "1,bottom,0,0,-0.4,nan\n")
     return refinement.read_result(case, directory)
 
@@ -171,7 +177,8 @@ class Meshes(unittest.TestCase):
         return [words[words.index(name) + 1] for name in ("-elements_radial", "-mesh_refinements")]
 
     def test_doublings_are_nested(self):
-        self.assertEqual([self.options((6, 12, 48), n) for n in (6, 12, 48)], [["6", "0"], ["6", "1"], ["6", "3"]])
+        self.assertEqual([self.options((6, 12, 48), n) for n in (6, 12, 48)],
+                         [["6", "0"], ["6", "1"], ["6", "3"]])
 
     def test_others_are_not(self):
         for levels in ((8, 12, 16), (8, 16, 24), (8,)):
@@ -180,7 +187,8 @@ class Meshes(unittest.TestCase):
 
 class EndToEnd(unittest.TestCase):
     def study(self, folder, *words):
-        return subprocess.run([REPOSITORY / "tools" / "convergence", *words], capture_output=True, text=True, cwd=folder,
+        return subprocess.run([REPOSITORY / "tools" / "convergence", *words], capture_output=True, text=True,
+                              cwd=folder,
                               check=False)
 
     def refuses(self, folder, *words, because):
@@ -190,9 +198,10 @@ class EndToEnd(unittest.TestCase):
 
     def test_tiny_study(self):
         quick = str(REPOSITORY / "options" / "quick.opts")
-        words = [quick, "--program", PROGRAM, "--family", "1:2:2,3,4", "--family", "2:1:1,2,4", "--tolerances", "4e-2",
-                 "--output", "study"]
-        schedule = ["--", "-schedule_end_times", "9,30", "-schedule_approach", "0.3,0.3", "-schedule_rates", "0,0.1"]
+        words = [quick, "--program", PROGRAM, "--family", "1:2:2,3,4", "--family", "2:1:1,2,4",
+                 "--tolerances", "4e-2", "--output", "study"]
+        schedule = ["--", "-schedule_end_times", "9,30", "-schedule_approach", "0.3,0.3", "-schedule_rates",
+                    "0,0.1"]
         with tempfile.TemporaryDirectory() as folder:
             done = self.study(folder, *words, *schedule)
             self.assertEqual(done.returncode, 0, done.stderr)
@@ -204,31 +213,36 @@ class EndToEnd(unittest.TestCase):
                 rows = list(csv.DictReader(file))
             self.assertEqual(len(rows), 20)  # 10 runs, 2 phases
             for row in rows:
-                name = f"order{row['order']}_grading{row['grading']}_n{row['elements']}_tolerance{row['tolerance']}"
+                name = "order{order}_grading{grading}_n{elements}_tolerance{tolerance}".format_map(row)
                 with open(out / "runs" / name / "history.csv", newline="", encoding="utf-8") as file:
                     ends = {step["phase"]: step for step in csv.DictReader(file)}
                 for column in ("normal_force_N", "torque_Nmm", "contact_radius_mm", "time_s"):
                     self.assertEqual(float(row[column]), float(ends[row["phase"]][column]))
             table = (out / "convergence.md").read_text(encoding="utf-8")
-            nested = json.loads((out / "runs" / "order2_grading1_n4_tolerance0.04" / "summary.json").read_text())
-            self.assertEqual((nested["options"]["elements_radial"], nested["options"]["mesh_refinements"]), ("1", "2"))
-            for heading in ("## Runs", "order 1 grading 2", "order 2 uniform", "## Do the limits agree", "mesh order"):
+            nested = json.loads((out / "runs" / "order2_grading1_n4_tolerance0.04"
+                                 / "summary.json").read_text())
+            self.assertEqual((nested["options"]["elements_radial"], nested["options"]["mesh_refinements"]),
+                             ("1", "2"))
+            for heading in ("## Runs", "order 1 grading 2", "order 2 uniform", "## Do the limits agree",
+                            "mesh order"):
                 self.assertIn(heading, table)
             self.refuses(folder, *words, *schedule, because="--resume")
             (out / "runs" / "order1_grading2_n3_tolerance0.04" / "study.json").unlink()
             again = self.study(folder, *words, "--resume", *schedule)
-            self.assertEqual((again.stderr.count(" kept "), again.stderr.count(" done ")), (9, 1), again.stderr)
+            self.assertEqual((again.stderr.count(" kept "), again.stderr.count(" done ")), (9, 1),
+                             again.stderr)
             schedule[-1] = "0,0.2"
             changed = self.study(folder, *words, "--resume", *schedule)
             self.assertEqual(changed.stderr.count(" done "), 10, changed.stderr)
 
     def test_failed_runs_are_reported_in_the_programs_words(self):
         with tempfile.TemporaryDirectory() as folder:
-            done = self.study(folder, str(REPOSITORY / "options" / "quick.opts"), "--program", PROGRAM, "--family",
-                              "1:2:2,3,4", "--", "-top_radius", "-3")
+            done = self.study(folder, str(REPOSITORY / "options" / "quick.opts"), "--program", PROGRAM,
+                              "--family", "1:2:2,3,4", "--", "-top_radius", "-3")
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertEqual(done.stderr.count("FAILED"), 5)
-        self.assertRegex(done.stdout, "FAILED order1_grading2_n2_tolerance0.001: status 2: tribogel: error: .*-top_radius")
+        self.assertRegex(done.stdout,
+                         "FAILED order1_grading2_n2_tolerance0.001: status 2: tribogel: error: .*-top_radius")
 
     def test_bad_input_is_refused_in_one_line(self):
         quick = str(REPOSITORY / "options" / "quick.opts")
@@ -236,9 +250,11 @@ class EndToEnd(unittest.TestCase):
             for words, because in ((["nowhere.opts"], "nowhere.opts"), ([], "OPTIONS_FILE"),
                                    ([quick, "--family", "3:4:8,12,16"], "element order"),
                                    ([quick, "--elements", "2", "--ratio", "1.1"], "a mesh twice"),
-                                   ([quick, "--", "-element_order", "1"], "-element_order is set by the study"),
+                                   ([quick, "--", "-element_order", "1"],
+                                    "-element_order is set by the study"),
                                    ([quick, "--mesh-tolerance", "0.5"], "--mesh-tolerance"),
-                                   ([quick, "--levels", "2"], "--levels"), ([quick, "--program", "none"], "none")):
+                                   ([quick, "--levels", "2"], "--levels"),
+                                   ([quick, "--program", "none"], "none")):
                 self.refuses(folder, *words, because=because)
             self.assertEqual(list(pathlib.Path(folder).iterdir()), [])
 

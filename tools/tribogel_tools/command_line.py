@@ -21,7 +21,8 @@ class Parser(argparse.ArgumentParser):
         raise BadInput(message)
 
     def add_program(self):
-        self.add_argument("--program", help="tribogel to run (default: built for this machine in build-native)")
+        self.add_argument("--program",
+                          help="tribogel to run (default: built for this machine in build-native)")
 
     def add_jobs(self, most=None):
         cores = len(os.sched_getaffinity(0))

@@ -1,9 +1,9 @@
 """Limits and uncertainties of refinement series. Numbers only: no files, no runs.
 
 A series is a value at several sizes h (mesh or time step). The rule is that of the program's -error_estimate,
-include/tribogel/math/extrapolation.hpp, which says where it is from; tests/extrapolation_cases.txt holds both to the
-same numbers. The fit is value(h) = v + C h^p, least squares in v, C and p; what differs is the highest order that is
-believed, which is 2 in the program, whose meshes are few and coarse.
+include/tribogel/math/extrapolation.hpp, which says where it is from; tests/extrapolation_cases.txt holds both
+to the same numbers. The fit is value(h) = v + C h^p, least squares in v, C and p; what differs is the highest
+order that is believed, which is 2 in the program, whose meshes are few and coarse.
 """
 import dataclasses
 import math
@@ -17,9 +17,12 @@ ROUND_OFF = 1e-9  # of the value: Newton's tolerance
 ZERO = 1e-10  # of the scale of values that may be 0
 ORDERS = (-4.0, 12.0, 0.05)  # scanned: lowest, highest, step
 VERDICTS = {
-    "confirmed": "order in the asymptotic range: limit of the fit, 1.25 |finest - limit| and the scatter about the fit",
-    "fast": "order above what is believed, which is taken instead; of three levels the finest value, 3 times the spread",
-    "slow": "order below 0.5, which is taken instead; of three levels the finest value, 3 times the spread or more",
+    "confirmed": "order in the asymptotic range: limit of the fit, 1.25 |finest - limit| and the scatter "
+                 "about the fit",
+    "fast": "order above what is believed, which is taken instead; of three levels the finest value, 3 "
+            "times the spread",
+    "slow": "order below 0.5, which is taken instead; of three levels the finest value, 3 times the spread "
+            "or more",
     "oscillates": "three levels, not monotone: finest value, 3 times the spread",
     "few levels": "two levels, no order: finest value, 3 times the spread",
     "settled": "no change but round-off: finest value, 3 times the spread",
@@ -46,9 +49,9 @@ class Limit:
 
 
 def fit_of_order(h, v, p):
-    """Least squares of v + C h^p for a given p, h falling: limit, value at the finest h, sum of squares. h^p is
-    written (x^p - 1)/p, which has no trouble at p = 0, with x = h/h_finest; differences from the finest value keep the
-    digits that the values share."""
+    """Least squares of v + C h^p for a given p, h falling: limit, value at the finest h, sum of squares. h^p
+    is written (x^p - 1)/p, which has no trouble at p = 0, with x = h/h_finest; differences from the finest
+    value keep the digits that the values share."""
     x, y = np.log(h / h[-1]), v - v[-1]
     basis = np.expm1(p * x) / p if p else x
     slope = np.dot(basis - basis.mean(), y) / np.dot(basis - basis.mean(), basis)
@@ -87,8 +90,8 @@ def judge_by_fit(h, v, spread, highest):
 
 
 def extrapolate(sizes, values, highest=HIGHEST_ORDER, scale=0.0):
-    """Limit of a series in any order of levels. highest: order that is believed; scale: of values of this kind, below
-    whose 1e-10 a difference is round-off whatever the value (a torque before any rotation)."""
+    """Limit of a series in any order of levels. highest: order that is believed; scale: of values of this
+    kind, below whose 1e-10 a difference is round-off whatever the value (a torque before any rotation)."""
     coarse_to_fine = np.argsort(sizes)[::-1]
     h, v = np.asarray(sizes, float)[coarse_to_fine], np.asarray(values, float)[coarse_to_fine]
     finest, spread = float(v[-1]), float(np.ptp(v))
@@ -111,8 +114,9 @@ def believed(theory):
 
 
 def combine(mesh, steps, common):
-    """Limit of mesh and step: the mesh's limit, at one step tolerance, moved by what the steps' limit, on one mesh,
-    differs from `common`, the value of the run that both series share. Errors may add up, so the uncertainties do."""
+    """Limit of mesh and step: the mesh's limit, at one step tolerance, moved by what the steps' limit, on one
+    mesh, differs from `common`, the value of the run that both series share. Errors may add up, so the
+    uncertainties do."""
     return Limit(mesh.value + (steps.value - common), mesh.uncertainty + steps.uncertainty, math.nan,
                  f"{mesh.verdict}/{steps.verdict}")
 
@@ -128,8 +132,8 @@ def all_agree(limits):
 
 
 def family_irregularity(elements, unknowns):
-    """How far a family is from self-similar: sqrt(unknowns) is linear in elements_radial when the mesh only scales.
-    Largest relative deviation from the straight line."""
+    """How far a family is from self-similar: sqrt(unknowns) is linear in elements_radial when the mesh only
+    scales. Largest relative deviation from the straight line."""
     n, root = np.asarray(elements, float), np.sqrt(np.asarray(unknowns, float))
     if len(n) < 3:
         return 0.0
@@ -137,8 +141,8 @@ def family_irregularity(elements, unknowns):
 
 
 def interpolate(x, y, at):
-    """Piecewise cubic that keeps monotone data monotone (Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980) 238-246, with
-    the harmonic mean of Fritsch and Butland 1984); one-sided differences at the ends."""
+    """Piecewise cubic that keeps monotone data monotone (Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980)
+    238-246, with the harmonic mean of Fritsch and Butland 1984); one-sided differences at the ends."""
     if len(x) < 3:
         return np.interp(at, x, y)
     h = np.diff(x)
@@ -151,12 +155,13 @@ def interpolate(x, y, at):
     d = np.concatenate(([slope[0]], inner, [slope[-1]]))
     k = np.clip(np.searchsorted(x, at, side="right") - 1, 0, len(h) - 1)
     s = (at - x[k]) / h[k]
-    return y[k] + s**2 * (3 - 2 * s) * (y[k + 1] - y[k]) + s * (1 - s) * h[k] * ((1 - s) * d[k] - s * d[k + 1])
+    return y[k] + s**2 * (3 - 2 * s) * (y[k + 1] - y[k]) + s * (1 - s) * h[k] * ((1 - s) * d[k] - s
+                                                                                 * d[k + 1])
 
 
 def curve_difference(times, values, fine_times, fine_values):
-    """Largest difference of two curves of one phase at the first one's own times, with what interpolating the second may
-    add: its own error when every other step is left out, measured at those steps."""
+    """Largest difference of two curves of one phase at the first one's own times, with what interpolating the
+    second may add: its own error when every other step is left out, measured at those steps."""
     difference = float(np.max(np.abs(values - interpolate(fine_times, fine_values, times))))
     kept = np.unique(np.concatenate((np.arange(0, len(fine_times), 2), [len(fine_times) - 1])))
     coarse = interpolate(fine_times[kept], fine_values[kept], fine_times)

@@ -2,9 +2,10 @@
 
   tools/hard-cases [CASE ...] [--jobs 2] [--output hard-cases] [-- -option value ...]
 
-A case is an options file there, or any other. The head of each says what it asks for and what is expected of it:
-"# hard-case: completes", or "# hard-case: stops" for those that the program gives up in order, with status 3, a reason and
-everything up to there in its files. The table is written into the output directory too (hard-cases.md).
+A case is an options file there, or any other. The head of each says what it asks for and what is expected of
+it: "# hard-case: completes", or "# hard-case: stops" for those that the program gives up in order, with
+status 3, a reason and everything up to there in its files. The table is written into the output directory too
+(hard-cases.md).
 Status: 0 when every case did as expected, 1 when not, 2 bad input.
 """
 import concurrent.futures
@@ -16,8 +17,8 @@ from .program import OPTIONS, program_of, run
 from .tables import markdown
 
 CASES = OPTIONS / "hard"
-HEADER = ("case", "expected", "done", "steps", "cuts", "rejected", "Newton mean", "max", "linear", "dN/N", "dT/T",
-          "energy", "CPU s")
+HEADER = ("case", "expected", "done", "steps", "cuts", "rejected", "Newton mean", "max", "linear", "dN/N",
+          "dT/T", "energy", "CPU s")
 
 
 def expectation(path):
@@ -31,7 +32,8 @@ def paths_of(names):
     paths = [path if (path := pathlib.Path(name)).is_file() else CASES / f"{name}.opts" for name in names]
     for name, path in zip(names, paths):
         if not path.is_file():
-            raise BadInput(f"no case {name}; there are " + ", ".join(sorted(p.stem for p in CASES.glob("*.opts"))))
+            raise BadInput(f"no case {name}; there are "
+                           + ", ".join(sorted(p.stem for p in CASES.glob("*.opts"))))
     return paths or sorted(CASES.glob("*.opts"))
 
 
@@ -49,8 +51,9 @@ def row_of(path, ended):
     done = {0: "yes", 3: f"stops at {summary['time_s']:.5g} s"}.get(status, f"status {status}")
     steps = max(counts["accepted_steps"], 1)
     residual = balances["energy_residual_relative"]
-    row = (path.stem, expected, done, counts["accepted_steps"], counts["failed_solves"], counts["rejected_steps"],
-           f"{counts['newton_iterations'] / steps:.1f}", counts["largest_newton_iterations"], counts["linear_iterations"],
+    row = (path.stem, expected, done, counts["accepted_steps"], counts["failed_solves"],
+           counts["rejected_steps"], f"{counts['newton_iterations'] / steps:.1f}",
+           counts["largest_newton_iterations"], counts["linear_iterations"],
            ratio(balances["max_force_mismatch_N"], balances["max_normal_force_N"]),
            ratio(balances["max_torque_mismatch_Nmm"], balances["max_torque_Nmm"]),
            "-" if residual is None else f"{residual:.0e}", f"{summary['cost']['cpu_s']:.1f}")

@@ -2,13 +2,14 @@
 
   tools/plot RUN_DIRECTORY [--output PATH]
 
-Reads history.csv (needed) and profile.csv (contact surfaces; drawn when there) and works on runs that died early.
-Left: axial force, torque and friction coefficients over time. Right: the same with each phase stretched to equal width
-and its own logarithmic time, because transients last seconds and a hold an hour. Below: the contact surfaces and the
-pressure. PATH is the picture's name; its ending, if any, is replaced by .png and .pdf.
+Reads history.csv (needed) and profile.csv (contact surfaces; drawn when there) and works on runs that died
+early. Left: axial force, torque and friction coefficients over time. Right: the same with each phase
+stretched to equal width and its own logarithmic time, because transients last seconds and a hold an hour.
+Below: the contact surfaces and the pressure. PATH is the picture's name; its ending, if any, is replaced by
+.png and .pdf.
 
-The interpreter is Debian's own: matplotlib is Debian's python3-matplotlib, which another python3 found first in PATH
-does not see.
+The interpreter is Debian's own: matplotlib is Debian's python3-matplotlib, which another python3 found first
+in PATH does not see.
 """
 import math
 import pathlib
@@ -34,8 +35,8 @@ COEFFICIENTS = (  # column, label, colour, line style
 
 
 def stretched_time(run):
-    """Abscissa of every row: phase k fills [k, k + 1] with the logarithm of the time since its start. Returns it with
-    the decades to label: positions and exponents."""
+    """Abscissa of every row: phase k fills [k, k + 1] with the logarithm of the time since its start. Returns
+    it with the decades to label: positions and exponents."""
     x, positions, exponents = np.zeros(len(run.history["time_s"])), [], []
     for index, rows in enumerate(run.rows):
         since = run.history["time_s"][rows] - run.history["time_s"][rows[0]]
@@ -65,8 +66,8 @@ def number(value):
 
 
 def decade_scale(axes, ends):
-    """Logarithmic from the decade of the smallest value at a phase's end that counts, linear from there through zero.
-    Within little more than a decade linear axes read better and are kept."""
+    """Logarithmic from the decade of the smallest value at a phase's end that counts, linear from there
+    through zero. Within little more than a decade linear axes read better and are kept."""
     sizes = np.abs(ends[np.isfinite(ends)])
     top = sizes.max(initial=0)
     smallest = sizes[sizes > 1e-7 * top].min(initial=top)
@@ -75,7 +76,8 @@ def decade_scale(axes, ends):
     lowest, highest = math.floor(math.log10(smallest)), math.ceil(math.log10(top))
     axes.set_yscale("symlog", linthresh=10.0**lowest, linscale=0.5)
     decades = 10.0 ** np.arange(lowest, highest + 1)
-    axes.set_yticks(np.concatenate((-decades[::-1], [0], decades) if np.nanmin(ends) < -1e-7 * top else ([0], decades)))
+    below = -decades[::-1] if np.nanmin(ends) < -1e-7 * top else []
+    axes.set_yticks(np.concatenate((below, [0], decades)))
     axes.yaxis.set_minor_locator(matplotlib.ticker.NullLocator())
 
 
@@ -109,8 +111,10 @@ def draw_by_phase(axes, run, curves, stretched, name_phases):
     mark_phase_ends(axes, range(1, len(run.rows)))
     if name_phases:
         for index in range(len(run.rows)):
-            axes.annotate(f"phase {run.phases[index]}\n{run.label(index)}", (index + 0.5, 1), (0, 5), ha="center",
-                          va="bottom", fontsize=9, xycoords=("data", "axes fraction"), textcoords="offset points")
+            axes.annotate(f"phase {run.phases[index]}\n{run.label(index)}", (index + 0.5, 1), (0, 5),
+                          ha="center",
+                          va="bottom", fontsize=9, xycoords=("data", "axes fraction"),
+                          textcoords="offset points")
     for index, end in enumerate(run.ends):
         value = annotate[end]
         if not math.isfinite(value):
@@ -122,7 +126,8 @@ def draw_by_phase(axes, run, curves, stretched, name_phases):
                       ha="right", va="bottom" if above else "top", fontsize=9, zorder=6,
                       bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8})
     axes.set_xlim(0, len(run.rows))
-    axes.set_xticks(positions, [f"$10^{{{e}}}$" if abs(e) > 1 else f"{10.0 ** e:g}" for e in exponents], fontsize=8)
+    axes.set_xticks(positions, [f"$10^{{{e}}}$" if abs(e) > 1 else f"{10.0 ** e:g}" for e in exponents],
+                    fontsize=8)
     axes.set_xlabel("time since the start of the phase  (s), logarithmic in each phase")
     frame(axes)
 
@@ -138,41 +143,47 @@ def draw_surfaces(axes, run):
         if len(rows) == 0:
             continue
         line = is_meridian(profile, rows)
-        axes.plot(profile["reference_r_mm"][rows], profile["reference_z_mm"][rows], linestyle="--" if line else "",
-                  marker="" if line else ".", markersize=2, color=colour, linewidth=1.0 + 0.4 * width, alpha=0.45,
+        axes.plot(profile["reference_r_mm"][rows], profile["reference_z_mm"][rows],
+                  linestyle="--" if line else "",
+                  marker="" if line else ".", markersize=2, color=colour, linewidth=1.0 + 0.4 * width,
+                  alpha=0.45,
                   label=f"{name}, undeformed")
         axes.plot(profile["r_mm"][rows], profile["z_mm"][rows], linestyle="-" if line else "", color=colour,
                   marker=marker if line else ".", markersize=4, markerfacecolor="white", linewidth=width,
                   alpha=0.6 if surface == "bottom" else 1, label=f"{name}, deformed")
     rolled = rolled_rows(profile, phase)
     if len(rolled):
-        axes.plot(profile["r_mm"][rolled], profile["z_mm"][rolled], ":" if is_meridian(profile, rolled) else "", color=RED,
+        axes.plot(profile["r_mm"][rolled], profile["z_mm"][rolled],
+                  ":" if is_meridian(profile, rolled) else "", color=RED,
                   marker=".", markersize=4, linewidth=1.2, label="top gel's wall, rolled on")
     bottom = surface_rows(profile, "bottom", phase)
     if len(bottom):
         centre = bottom[np.argmin(profile["reference_r_mm"][bottom])]
         axes.annotate(f"centre: z = {profile['z_mm'][centre]:.4g} mm",
-                      (profile["r_mm"][centre], profile["z_mm"][centre]), (14, 16), textcoords="offset points",
+                      (profile["r_mm"][centre], profile["z_mm"][centre]), (14, 16),
+                      textcoords="offset points",
                       fontsize=9, arrowprops={"arrowstyle": "-", "color": GREY, "linewidth": 0.8})
     radius = np.nan
     if "contact_radius_mm" in history:
         radius = history["contact_radius_mm"][np.argmin(np.abs(history["time_s"] - time))]
     if math.isfinite(radius) and radius > 0:
         axes.axvline(radius, color=GREY, linewidth=0.8, linestyle=":")
-        axes.annotate(f"contact radius\n{radius:.4g} mm", (radius, 0.88), (-5, 0), ha="right", va="top", fontsize=9,
+        axes.annotate(f"contact radius\n{radius:.4g} mm", (radius, 0.88), (-5, 0), ha="right", va="top",
+                      fontsize=9,
                       xycoords=("data", "axes fraction"), textcoords="offset points", color="#444444")
     axes.margins(x=0.02, y=0.12)
     axes.set_xlim(left=0)
     axes.set_xlabel("r  (mm)")
     axes.set_ylabel("z  (mm)")
-    axes.set_title(f"Contact surfaces at the end of phase {phase}, t = {time:g} s  (z stretched)", fontsize=10)
+    axes.set_title(f"Contact surfaces at the end of phase {phase}, t = {time:g} s  (z stretched)",
+                   fontsize=10)
     axes.legend(fontsize=8.5, frameon=False, loc="best")
     frame(axes)
 
 
 def draw_pressure(axes, run):
-    """Contact pressure of the top (slave) surface at each phase end. Later curves are thinner, so that equal ones
-    show."""
+    """Contact pressure of the top (slave) surface at each phase end. Later curves are thinner, so that equal
+    ones show."""
     profile = run.profile
     phases = [int(k) for k in np.unique(profile["phase"])]
     colours = plt.get_cmap("viridis")(np.linspace(0, 0.88, len(phases)))
@@ -187,7 +198,8 @@ def draw_pressure(axes, run):
                   marker="" if line else ".", markersize=3, color=colours[index], linewidth=1.3 + 1.1 * rank,
                   label=f"phase {phase}: {name}")
         rolled = rolled_rows(profile, phase)
-        axes.plot(profile["r_mm"][rolled], profile["pressure_MPa"][rolled], ":" if is_meridian(profile, rolled) else "",
+        axes.plot(profile["r_mm"][rolled], profile["pressure_MPa"][rolled],
+                  ":" if is_meridian(profile, rolled) else "",
                   marker=".", markersize=3, color=colours[index], linewidth=1.3)
     axes.set_xlim(left=0)
     axes.set_ylim(bottom=min(0, axes.get_ylim()[0]))
@@ -201,9 +213,9 @@ def draw_pressure(axes, run):
 def draw(run):
     """The whole figure; rows without data are left out."""
     h = run.history
+    torque = without_round_off(h["torque_Nmm"], np.nanmax(np.abs(h["normal_force_N"])))
     quantities = [("axial force N  (N)", [(h["normal_force_N"], "", BLUE, "-")]),
-                  ("torque T  (N mm)", [(without_round_off(h["torque_Nmm"], np.nanmax(np.abs(h["normal_force_N"]))), "",
-                                         RED, "-")])]
+                  ("torque T  (N mm)", [(torque, "", RED, "-")])]
     coefficients = [(without_round_off(h[name], 1), label, colour, style)
                     for name, label, colour, style in COEFFICIENTS if run.has(name)]
     if coefficients:
@@ -211,7 +223,8 @@ def draw(run):
     surfaces = run.profile is not None and (run.profile["surface"] == "top").any()
     heights = [1.0] * len(quantities) + ([1.25] if surfaces else [])
     figure = plt.figure(figsize=(14, 1.0 + 3.5 * sum(heights)), layout="constrained")
-    grid = figure.add_gridspec(len(heights), 2, height_ratios=heights, width_ratios=(1, 1.7), hspace=0.06, wspace=0.03)
+    grid = figure.add_gridspec(len(heights), 2, height_ratios=heights, width_ratios=(1, 1.7), hspace=0.06,
+                               wspace=0.03)
     stretched = stretched_time(run)
     for row, (label, curves) in enumerate(quantities):
         left, right = figure.add_subplot(grid[row, 0]), figure.add_subplot(grid[row, 1])

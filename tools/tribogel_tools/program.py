@@ -21,9 +21,11 @@ class RunFailed(Exception):
 
 
 def in_environment(command, *arguments, **how):
-    """Runs a line of bash that has sourced tools/environment. Not replaced by the program it starts: Linux hands
-    the memory peak of a process on to what replaces it, and that of a tool is larger than a small run's."""
-    return subprocess.run(["bash", "-uc", f'. "$0"; {command}; exit $?', str(TOOLS / "environment"), *arguments],
+    """Runs a line of bash that has sourced tools/environment. Not replaced by the program it starts: Linux
+    hands the memory peak of a process on to what replaces it, and that of a tool is larger than a small
+    run's."""
+    return subprocess.run(["bash", "-uc", f'. "$0"; {command}; exit $?', str(TOOLS / "environment"),
+                           *arguments],
                           check=False, **how)
 
 
@@ -52,12 +54,12 @@ def program_of(given):
 
 
 def start(command, time_limit=None, stdout=subprocess.PIPE, **how):
-    """Starts the words of a command and waits for it: a CompletedProcess. time_limit: wall seconds, after which it
-    ends with one of TIME_IS_UP."""
+    """Starts the words of a command and waits for it: a CompletedProcess. time_limit: wall seconds, after
+    which it ends with one of TIME_IS_UP."""
     limit = ["timeout", f"--kill-after={PATIENCE}", str(time_limit)] if time_limit else []
     words = [word if isinstance(word, bytes) else str(word) for word in (*limit, *command)]
-    return in_environment('"$@"', *words, stdin=subprocess.DEVNULL, stdout=stdout, stderr=subprocess.PIPE, text=True,
-                          errors="backslashreplace", **how)
+    return in_environment('"$@"', *words, stdin=subprocess.DEVNULL, stdout=stdout, stderr=subprocess.PIPE,
+                          text=True, errors="backslashreplace", **how)
 
 
 @dataclasses.dataclass
@@ -102,8 +104,8 @@ def options_files(paths):
 
 
 def run(program, words, directory, *, ranks=1, mpirun="mpirun", time_limit=None, log=None):
-    """One run with these words of options into a directory, whose summary.json of before is removed. log: name of
-    a file there for what the program prints."""
+    """One run with these words of options into a directory, whose summary.json of before is removed. log:
+    name of a file there for what the program prints."""
     directory = pathlib.Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
     (directory / "summary.json").unlink(missing_ok=True)

@@ -1,5 +1,5 @@
-"""What tools/fuzz and tests/refusals share: a start of the program in a directory of its own, and what makes a
-refusal."""
+"""What tools/fuzz and tests/refusals share: a start of the program in a directory of its own, and what makes
+a refusal."""
 import os
 import subprocess
 import tempfile
@@ -17,8 +17,9 @@ def contents(directory):
 
 
 def start(command, directory, time_limit, **variables):
-    """Runs the command there, with no options from the user's environment or home but those given. Open MPI gets a
-    place of its own for its files: of two programs that start and end at a time one may remove the other's."""
+    """Runs the command there, with no options from the user's environment or home but those given. Open MPI
+    gets a place of its own for its files: of two programs that start and end at a time one may remove the
+    other's."""
     environment = {name: value for name, value in os.environ.items() if name != "PETSC_OPTIONS"}
     with tempfile.TemporaryDirectory() as scratch:
         environment.update(variables, HOME=str(directory), TMPDIR=scratch)
@@ -29,7 +30,8 @@ def start(command, directory, time_limit, **variables):
 
 
 def faults_of_refusal(done, before, directory):
-    """What is wrong with a refusal, as a list of lines: its status, its one line, or something that it wrote."""
+    """What is wrong with a refusal, as a list of lines: its status, its one line, or something that it
+    wrote."""
     wrong = []
     if done.returncode != REFUSED:
         wrong.append(f"exit status {done.returncode}, not {REFUSED}")

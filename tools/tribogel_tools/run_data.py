@@ -7,14 +7,14 @@ import numpy as np
 from .command_line import BadInput
 
 HISTORY_NEEDS = ("time_s", "phase", "approach_mm", "rate_rad_per_s", "normal_force_N", "torque_Nmm")
-PROFILE_NEEDS = ("time_s", "phase", "surface", "reference_r_mm", "reference_theta_rad", "reference_z_mm", "r_mm",
-                 "z_mm", "pressure_MPa", "part")
+PROFILE_NEEDS = ("time_s", "phase", "surface", "reference_r_mm", "reference_theta_rad", "reference_z_mm",
+                 "r_mm", "z_mm", "pressure_MPa", "part")
 TEXTS = ("surface", "part")  # columns of words
 
 
 def read_table(path, needed):
-    """Columns of a CSV file by name: arrays of numbers, or of text where a cell is none. A last row that the run did
-    not finish writing is left out."""
+    """Columns of a CSV file by name: arrays of numbers, or of text where a cell is none. A last row that the
+    run did not finish writing is left out."""
     try:
         with open(path, newline="", encoding="utf-8") as file:
             text = file.read()
@@ -42,7 +42,8 @@ def read_table(path, needed):
 
 
 class History:
-    """history.csv by phase, and profile.csv where there is one. Each phase begins with the row that ends the phase before it."""
+    """history.csv by phase, and profile.csv where there is one. Each phase begins with the row that ends the
+    phase before it."""
 
     def __init__(self, directory):
         self.directory = pathlib.Path(directory)
@@ -77,7 +78,8 @@ class History:
 
 
 def surface_rows(profile, surface, phase, part="face"):
-    """Of a contact surface, in the order of the file. Of the top gel's wall only what touches the other gel."""
+    """Of a contact surface, in the order of the file. Of the top gel's wall only what touches the other
+    gel."""
     here = (profile["surface"] == surface) & (profile["phase"] == phase) & (profile["part"] == part)
     return np.flatnonzero(here & (profile["status"] != "open") if part == "wall" else here)
 

@@ -2,10 +2,12 @@
 
   tools/solid-table [--meshes 1:4 1:6 1:8 2:2 2:3 2:4] [--output DIRECTORY] [-- -option value ...]
 
-A mesh is ORDER:ELEMENTS, the elements along the top radius, uniform. Each run has the paper's three rates and then nine angles
-over the turn of one facet of the top gel's rim: what T changes by there is the ripple of facets that do not match, a torque that
-hardly depends on the friction and has no mean. Errors are against the axisymmetric model's default mesh (printed first); in brackets, the axisymmetric model on the same radii and heights.
-The observed orders are those of the two last errors of each order of elements. Further options go to all runs.
+A mesh is ORDER:ELEMENTS, the elements along the top radius, uniform. Each run has the paper's three rates and
+then nine angles over the turn of one facet of the top gel's rim: what T changes by there is the ripple of
+facets that do not match, a torque that hardly depends on the friction and has no mean. Errors are against the
+axisymmetric model's default mesh (printed first); in brackets, the axisymmetric model on the same radii and
+heights. The observed orders are those of the two last errors of each order of elements. Further options go to
+all runs.
 Status: 0 when all runs completed, 1 when not, 2 bad input.
 """
 import argparse
@@ -17,12 +19,14 @@ from .tables import row, rule
 
 RATES = (0.01, 0.1, 1)
 ANGLES = 8  # of a facet's turn
-HEADER = ("order", "elements", "N [N]", *(f"T at {rate} [N mm]" for rate in RATES), "centre [mm]", "rim [mm]", "radius [mm]",
-          "error N [%]", "error T [%]", "ripple T [N mm]", "unknowns", "Newton", "most", "linear", "CPU [s]", "MB")
+HEADER = ("order", "elements", "N [N]", *(f"T at {rate} [N mm]" for rate in RATES), "centre [mm]",
+          "rim [mm]", "radius [mm]", "error N [%]", "error T [%]", "ripple T [N mm]", "unknowns", "Newton",
+          "most", "linear", "CPU [s]", "MB")
 
 
 def schedule(elements):
-    """Steady states at the three rates, then the last one again at angles over the turn of a facet on the rim."""
+    """Steady states at the three rates, then the last one again at angles over the turn of a facet on the
+    rim."""
     facets = 8 * max(1, math.ceil(elements / 2))  # on the circumference (src/mesh/cylinder.hpp)
     ends, rates = [100.0, 200.0, 300.0], list(RATES)
     for k in range(ANGLES):
@@ -53,21 +57,23 @@ def cells_of(order, elements, solid, flat, limit):
     for name in ("normal_force_N", "torque_Nmm"):
         error[name] = per_cent(phases[2][name], limit["phases"][2][name])
         error[name + "_flat"] = per_cent(flat["phases"][2][name], limit["phases"][2][name])
-    cells = (order, elements, f"{phases[2]['normal_force_N']:.2f}", *(f"{phase['torque_Nmm']:.4f}" for phase in phases[:3]),
-           f"{phases[2]['bottom_surface_centre_displacement_mm']:.4f}",
-           f"{phases[2]['bottom_surface_rim_displacement_mm']:.4f}", f"{phases[2]['contact_radius_mm']:.3f}",
-           f"{error['normal_force_N']:.2f} ({error['normal_force_N_flat']:.2f})",
-           f"{error['torque_Nmm']:.2f} ({error['torque_Nmm_flat']:.2f})",
-           f"{max(torques) - min(torques):.4f}", counts["unknowns"], counts["newton_iterations"],
-           counts["largest_newton_iterations"], counts["linear_iterations"], f"{solid['cost']['cpu_s']:.1f}",
-           f"{solid['cost']['peak_memory_MB']:.0f}")
+    cells = (order, elements, f"{phases[2]['normal_force_N']:.2f}",
+             *(f"{phase['torque_Nmm']:.4f}" for phase in phases[:3]),
+             f"{phases[2]['bottom_surface_centre_displacement_mm']:.4f}",
+             f"{phases[2]['bottom_surface_rim_displacement_mm']:.4f}",
+             f"{phases[2]['contact_radius_mm']:.3f}",
+             f"{error['normal_force_N']:.2f} ({error['normal_force_N_flat']:.2f})",
+             f"{error['torque_Nmm']:.2f} ({error['torque_Nmm_flat']:.2f})",
+             f"{max(torques) - min(torques):.4f}", counts["unknowns"], counts["newton_iterations"],
+             counts["largest_newton_iterations"], counts["linear_iterations"],
+             f"{solid['cost']['cpu_s']:.1f}", f"{solid['cost']['peak_memory_MB']:.0f}")
     return cells, [error["normal_force_N"], error["torque_Nmm"]]
 
 
 def mesh_of(text):
     order, _, elements = text.partition(":")
     if order not in ("1", "2") or not elements.isdigit() or int(elements) < 2:
-        raise argparse.ArgumentTypeError(f"{text}: allowed: ORDER:ELEMENTS, order 1 or 2, at least 2 elements")
+        raise argparse.ArgumentTypeError(f"{text}: allowed: ORDER:ELEMENTS, order 1 or 2, elements from 2")
     return int(order), int(elements)
 
 
@@ -101,7 +107,8 @@ def print_orders(errors):
 
 def main(words):
     parser = Parser("solid-table", __doc__)
-    parser.add_argument("--meshes", type=mesh_of, nargs="+", default=[(1, 4), (1, 6), (1, 8), (2, 2), (2, 3), (2, 4)],
+    parser.add_argument("--meshes", type=mesh_of, nargs="+",
+                        default=[(1, 4), (1, 6), (1, 8), (2, 2), (2, 3), (2, 4)],
                         metavar="ORDER:ELEMENTS")
     parser.add_program()
     parser.add_output("tribogel-solid-table")

@@ -3,10 +3,11 @@
   tools/specimen-mesh square --out square.msh
   tools/specimen-mesh ellipse --ratio 2 --elements 6 --order 2 --out ellipse.msh
 
-The top specimen is a prism over a square, an ellipse or a circle with the area of a circle of the given radius, the bottom
-one a cylinder below z = 0. Cylinders and ellipses are O-grids, squares are tensor grids. Order 1 puts the vertices on a
-circle (an ellipse) so much larger that the polygon has the area; order 2 writes hexahedra of 27 nodes whose middles lie on
-the curved wall, while -element_order 2 takes straight edges from a file of order 1.
+The top specimen is a prism over a square, an ellipse or a circle with the area of a circle of the given
+radius, the bottom one a cylinder below z = 0. Cylinders and ellipses are O-grids, squares are tensor grids.
+Order 1 puts the vertices on a circle (an ellipse) so much larger that the polygon has the area; order 2
+writes hexahedra of 27 nodes whose middles lie on the curved wall, while -element_order 2 takes straight edges
+from a file of order 1.
 """
 import argparse
 import math
@@ -31,7 +32,8 @@ def turned(x, y, quarters):
 
 
 def disc_point(x, y, c):
-    """From the square [-1, 1]^2 to the unit disc; within max(|x|, |y|) <= c lies a tensor grid, around it rings."""
+    """From the square [-1, 1]^2 to the unit disc; within max(|x|, |y|) <= c lies a tensor grid, around it
+    rings."""
     def inside(a, b):
         return a * math.sqrt(1 - b * b / 2), b * math.sqrt(1 - a * a / 2)
     s = max(abs(x), abs(y))
@@ -54,7 +56,8 @@ def o_grid(elements):
 
     def centre(i, j):
         return i + j * (n + 1)
-    cells = [(centre(i, j), centre(i + 1, j), centre(i + 1, j + 1), centre(i, j + 1)) for j in range(n) for i in range(n)]
+    cells = [(centre(i, j), centre(i + 1, j), centre(i + 1, j + 1), centre(i, j + 1)) for j in range(n)
+             for i in range(n)]
     ring = ([centre(n, i) for i in range(n)] + [centre(n - i, n) for i in range(n)] +
             [centre(0, n - i) for i in range(n)] + [centre(i, 0) for i in range(n)])
     for level in range(k + 1, elements + 1):
@@ -62,7 +65,8 @@ def o_grid(elements):
         around = [turned(s, s * (p % n / k - 1), p // n) for p in range(4 * n)]
         outer = list(range(len(vertices), len(vertices) + 4 * n))
         vertices += around
-        cells += [(ring[p], outer[p], outer[(p + 1) % (4 * n)], ring[(p + 1) % (4 * n)]) for p in range(4 * n)]
+        cells += [(ring[p], outer[p], outer[(p + 1) % (4 * n)], ring[(p + 1) % (4 * n)])
+                  for p in range(4 * n)]
         ring = outer
     return vertices, cells, c
 
@@ -162,8 +166,8 @@ def specimens(given):
         def place(a, b):
             x, y = disc_point(a, b, c_top)
             return radius * stretch * x, radius / stretch * y
-    mesh.add(vertices, cells, place, levels(given.gap, given.gap + given.height, given.layers), "top", "top_contact",
-             "top_plate")
+    mesh.add(vertices, cells, place, levels(given.gap, given.gap + given.height, given.layers), "top",
+             "top_contact", "top_plate")
     return mesh
 
 
@@ -178,13 +182,15 @@ def main(words):
     parser = Parser("specimen-mesh", __doc__)
     parser.add_argument("shape", choices=["round", "square", "ellipse"], help="of the top specimen")
     parser.add_argument("--out", help="file to write; default: standard output")
-    parser.add_argument("--radius", type=length, default=10, help="of the circle with the top's area [mm], default 10")
+    parser.add_argument("--radius", type=length, default=10,
+                        help="of the circle with the top's area [mm], default 10")
     parser.add_argument("--height", type=length, default=4.4, help="of the top specimen [mm], default 4.4")
     parser.add_argument("--bottom-radius", type=length, default=16, help="[mm], default 16")
     parser.add_argument("--bottom-height", type=length, default=4, help="[mm], default 4")
     parser.add_argument("--gap", type=float, default=0, help="between the specimens [mm], default 0")
     parser.add_argument("--ratio", type=length, default=1.5, help="of the ellipse's axes, default 1.5")
-    parser.add_argument("--elements", type=positive, default=4, help="along the radius or half the edge, default 4")
+    parser.add_argument("--elements", type=positive, default=4,
+                        help="along the radius or half the edge, default 4")
     parser.add_argument("--layers", type=positive, default=2, help="of elements in each specimen, default 2")
     parser.add_argument("--order", type=int, choices=[1, 2], default=1, help="of the elements, default 1")
     given = parser.parse_args(words)

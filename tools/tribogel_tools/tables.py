@@ -13,7 +13,8 @@ def rule(columns, cell="---"):
 
 
 def markdown(header, rows, cell="---", padded=False):
-    """cell: of the rule, " ---: " for numbers that end at the right. padded: columns line up in a terminal too."""
+    """cell: of the rule, " ---: " for numbers that end at the right. padded: columns line up in a terminal
+    too."""
     rows = [[str(cell) for cell in each] for each in (header, *rows)]
     if padded:
         widths = [max(map(len, column)) for column in zip(*rows)]

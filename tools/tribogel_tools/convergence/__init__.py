@@ -1,1 +1,2 @@
-"""Refinement of mesh and steps: what runs (`command`), families and limits (`refinement`), tables and picture (`report`)."""
+"""Refinement of mesh and steps: what runs (`command`), families and limits (`refinement`), tables and picture
+(`report`)."""

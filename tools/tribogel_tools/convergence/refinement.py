@@ -1,4 +1,5 @@
-"""What a refinement study runs and what it reads from the runs, for tools/convergence: cases, results, families, limits."""
+"""What a refinement study runs and what it reads from the runs, for tools/convergence: cases, results,
+families, limits."""
 import dataclasses
 import functools
 import json
@@ -40,13 +41,15 @@ class Family:
         return f"order {self.order} " + ("uniform" if float(self.grading) == 1 else f"grading {self.grading}")
 
     def nested(self):
-        """Are all meshes the coarsest one, halved? Then they differ in nothing else, not even in whole numbers."""
+        """Are all meshes the coarsest one, halved? Then they differ in nothing else, not even in whole
+        numbers."""
         return len(self.elements) > 1 and all(self.halvings(n) is not None for n in self.elements)
 
     def halvings(self, elements):
         """How often the coarsest mesh is halved to give this one; None if it is not."""
         ratio = elements // self.elements[0]
-        return ratio.bit_length() - 1 if ratio & (ratio - 1) == 0 and ratio * self.elements[0] == elements else None
+        halved = ratio & (ratio - 1) == 0 and ratio * self.elements[0] == elements
+        return ratio.bit_length() - 1 if halved else None
 
 
 @dataclasses.dataclass(frozen=True)
@@ -56,7 +59,8 @@ class Case:
     tolerance: str
 
     def name(self):
-        return f"order{self.family.order}_grading{self.family.grading}_n{self.elements}_tolerance{self.tolerance}"
+        family = self.family
+        return f"order{family.order}_grading{family.grading}_n{self.elements}_tolerance{self.tolerance}"
 
     def options(self, tolerance_option):
         halvings = self.family.halvings(self.elements) if self.family.nested() else 0
@@ -101,20 +105,22 @@ def read_result(case, directory, failure=""):
             result.phases[phase].update(values)
     except (OSError, ValueError, KeyError, TypeError) as error:
         if not failure:
-            raise BadInput(f"cannot read the results in {result.directory}: {type(error).__name__} {error}") from None
+            what = f"{type(error).__name__} {error}"
+            raise BadInput(f"cannot read the results in {result.directory}: {what}") from None
     return result
 
 
 def read_top_face(path):
-    """Displacements of the top gel's lower face at its centre and rim by phase, from profile.csv. The rim is the first
-    of the nodes farthest out; the wall's come after it."""
+    """Displacements of the top gel's lower face at its centre and rim by phase, from profile.csv. The rim is
+    the first of the nodes farthest out; the wall's come after it."""
     ends = {}
     for row in read_csv(path):
         if row["surface"] == "top":
             point = (float(row["reference_r_mm"]), float(row["reference_z_mm"]) - float(row["z_mm"]))
             ends.setdefault(int(row["phase"]), []).append(point)
     return {
-        phase: dict(zip(FROM_PROFILE, (choose(points, key=lambda point: point[0])[1] for choose in (min, max))))
+        phase: dict(zip(FROM_PROFILE,
+                        (choose(points, key=lambda point: point[0])[1] for choose in (min, max))))
         for phase, points in ends.items()
     }
 
@@ -123,13 +129,15 @@ class Study:
     """Families of results and their limits."""
 
     def __init__(self, families, results, settings):
-        """settings: tolerances (texts), mesh_tolerance (the one of the mesh series), step_elements (family -> the mesh
-        of the step series), step_size ("tolerance" or "steps"), time_order, targets (order 2 graded, others)."""
+        """settings: tolerances (texts), mesh_tolerance (the one of the mesh series), step_elements (family ->
+        the mesh of the step series), step_size ("tolerance" or "steps"), time_order, targets (order 2 graded,
+        others)."""
         self.families, self.results, self.settings = families, results, settings
         self.by_case = {result.case: result for result in results}
         done = self.completed()
         self.phases = sorted({phase for result in done for phase in result.phases})
-        self.scale = {name: max((abs(v) for r in done for p in self.phases if math.isfinite(v := r.value(p, name))),
+        self.scale = {name: max((abs(v) for r in done for p in self.phases
+                                 if math.isfinite(v := r.value(p, name))),
                                 default=0.0) for name in QUANTITIES}
         self.mesh, self.steps, self.limits = {}, {}, {}
         for family in families:
@@ -147,7 +155,8 @@ class Study:
         return limit.relative() <= self.target(family)
 
     def series(self, family, phase=None, name=None, steps=False):
-        """Completed runs of a family in which only the mesh (or the step) differs and that know the quantity."""
+        """Completed runs of a family in which only the mesh (or the step) differs and that know the
+        quantity."""
         s = self.settings
         cases = ([Case(family, s.step_elements[family], t) for t in s.tolerances] if steps
                  else [Case(family, n, s.mesh_tolerance) for n in family.elements])
@@ -155,7 +164,8 @@ class Study:
                 if r and not r.failure and (name is None or math.isfinite(r.value(phase, name)))]
 
     def step_size(self, result):
-        """Backward Euler's error in a step is of order step^2, so that steps follow the root of the tolerance."""
+        """Backward Euler's error in a step is of order step^2, so that steps follow the root of the
+        tolerance."""
         if self.settings.step_size == "steps":
             return 1 / result.counts["steps"]
         return float(result.case.tolerance) ** (1 / (self.settings.time_order + 1))
@@ -172,7 +182,8 @@ class Study:
         if shared:
             self.steps[key] = extrapolate.extrapolate([self.step_size(r) for r in steps],
                                                       [r.value(phase, name) for r in steps],
-                                                      extrapolate.believed(self.settings.time_order), self.scale[name])
+                                                      extrapolate.believed(self.settings.time_order),
+                                                      self.scale[name])
             self.limits[key] = extrapolate.combine(self.mesh[key], self.steps[key], shared[0])
 
     def of_families(self, phase, name):
@@ -180,8 +191,8 @@ class Study:
         return {f: self.limits[f, phase, name] for f in self.families if (f, phase, name) in self.limits}
 
     def error(self, result, name):
-        """Largest error at a phase's end, relative to the limit that is known best of all families, and what that
-        limit may be off by there."""
+        """Largest error at a phase's end, relative to the limit that is known best of all families, and what
+        that limit may be off by there."""
         worst = (math.nan, math.nan)
         for phase in self.phases:
             limit = extrapolate.best(self.of_families(phase, name).values())
@@ -195,13 +206,14 @@ class Study:
     def series_error(self, family, result, name, steps):
         """Largest error at a phase's end from the mesh (the step) alone: against the limit of its series."""
         limits = self.steps if steps else self.mesh
-        errors = [abs(result.value(p, name) - limits[family, p, name].value) / abs(limits[family, p, name].value)
+        errors = [abs(result.value(p, name) - limits[family, p, name].value)
+                  / abs(limits[family, p, name].value)
                   for p in self.phases if (family, p, name) in limits and limits[family, p, name].value]
         return max(errors, default=math.nan)
 
     def curves(self, family, name, steps):
-        """For each but the finest run of a series: {phase: (largest |difference| to the finest run over the phase, what
-        interpolating that may add)}, both relative to the curve's largest value in the phase."""
+        """For each but the finest run of a series: {phase: (largest |difference| to the finest run over the
+        phase, what interpolating that may add)}, both relative to the curve's largest value in the phase."""
         runs = self.series(family, steps=steps)
         if len(runs) < 2:
             return []

@@ -25,16 +25,20 @@ def observed(limit):
 
 def run_table(study):
     """What each run cost and how far it is from the best limit."""
-    header = ["order", "grading", "elements", "tolerance", *COUNTS, "N error", "T error", "(N limit)", "(T limit)"]
+    header = ["order", "grading", "elements", "tolerance", *COUNTS, "N error", "T error", "(N limit)",
+              "(T limit)"]
     rows = []
     for r in study.results:
         key = [r.case.family.order, r.case.family.grading, r.case.elements, r.case.tolerance]
-        counts = [f"{r.counts[name]:.4g}" if name in ("cpu_s", "peak_MB") else r.counts[name] if r.counts else "-"
-                  for name in COUNTS if r.counts] or ["-"] * len(COUNTS)
+        counts = ["-"] * len(COUNTS)
+        if r.counts:
+            counts = [f"{r.counts[name]:.4g}" if name in ("cpu_s", "peak_MB") else r.counts[name]
+                      for name in COUNTS]
         (n, n_limit), (t, t_limit) = (study.error(r, name) for name in ("N", "T"))
         rows.append([*key, *counts] + (["FAILED", "FAILED", "", ""] if r.failure else
                                        [size(n), size(t), size(n_limit), size(t_limit)]))
-    notes = ["Errors: largest at a phase's end, relative to the limit with the smallest uncertainty among the families;",
+    notes = ["Errors: largest at a phase's end, relative to the limit with the smallest uncertainty among "
+             "the families;",
              "in brackets that limit's relative uncertainty: errors near or below it mean nothing."]
     notes += [f"FAILED {r.case.name()}: {r.failure}" for r in study.results if r.failure]
     return "Runs", header, rows, notes
@@ -43,8 +47,8 @@ def run_table(study):
 def family_table(study, family):
     """Values at the mesh levels, orders and limits."""
     runs = study.series(family)
-    header = ["phase", "quantity", *(f"n={r.case.elements}" for r in runs), "mesh order", "step order", "limit",
-              "+- mesh", "+- steps", "relative", "target"]
+    header = ["phase", "quantity", *(f"n={r.case.elements}" for r in runs), "mesh order", "step order",
+              "limit", "+- mesh", "+- steps", "relative", "target"]
     target = study.target(family)
     rows, used = [], set()
     for phase in study.phases:
@@ -96,8 +100,8 @@ def agreement_table(study):
              "; ".join(f"{verdict}: {count}" for verdict, count in counts.items()) + "."]
     for family in study.families:
         own = [study.reaches_target(family, limit) for key, limit in study.limits.items() if key[0] == family]
-        notes.append(f"{family.label()}: relative uncertainty at most {study.target(family):g} in {sum(own)} of "
-                     f"{len(own)} cases.")
+        notes.append(f"{family.label()}: relative uncertainty at most {study.target(family):g} in "
+                     f"{sum(own)} of {len(own)} cases.")
     return "Do the limits agree", header, rows, notes
 
 
@@ -116,10 +120,14 @@ def curve_table(study, steps):
                     cells.append(f"{d[0]:.1e} ({d[1]:.0e})" if d else "-")
             rows.append([family.label(), result.case.elements, result.case.tolerance, *cells])
     what = "step" if steps else "mesh"
-    notes = [f"max over t of |value - value of the finest {what}| / max |value| in the phase, at the coarser run's own steps,",
-             "the finest run interpolated by a monotone cubic within the phase. In brackets what that interpolation errs",
-             "when every other step is left out (several times more than with all): smaller differences mean nothing."]
-    notes += [] if steps else ["Runs place their steps differently: the difference has a part of the step's error too."]
+    notes = [f"max over t of |value - value of the finest {what}| / max |value| in the phase, at the "
+             "coarser run's own steps,",
+             "the finest run interpolated by a monotone cubic within the phase. In brackets what that "
+             "interpolation errs",
+             "when every other step is left out (several times more than with all): smaller differences "
+             "mean nothing."]
+    notes += [] if steps else ["Runs place their steps differently: the difference has a part of the step's "
+                               "error too."]
     return f"Curves over time, {what} series", header, rows, notes
 
 
@@ -133,14 +141,17 @@ def as_text(table):
 
 def as_markdown(table):
     title, header, rows, notes = table
-    return "\n".join([f"## {title}", "", markdown(header, rows, " ---: "), "", *(f"- {note}" for note in notes), ""])
+    return "\n".join([f"## {title}", "", markdown(header, rows, " ---: "), "",
+                      *(f"- {note}" for note in notes), ""])
 
 
 def write_runs(study, path):
-    """A row for each run and phase end; 17 digits. A failed run has what it reached, or one row without a phase."""
+    """A row for each run and phase end; 17 digits. A failed run has what it reached, or one row without a
+    phase."""
     rows = []
     for r in study.results:
-        key = [r.case.family.order, r.case.family.grading, r.case.elements, r.case.tolerance, r.failure or "complete",
+        key = [r.case.family.order, r.case.family.grading, r.case.elements, r.case.tolerance,
+               r.failure or "complete",
                *(r.counts.get(name, "nan") for name in COUNTS)]
         for phase in sorted(r.phases) or [""]:
             values = (f"{r.value(phase, name):.17g}" for name in QUANTITIES)
@@ -154,8 +165,9 @@ def write_limits(study, path):
              study.mesh[key].order, study.mesh[key].verdict, f"{study.mesh[key].uncertainty:.17g}",
              study.steps[key].order, study.steps[key].verdict, f"{study.steps[key].uncertainty:.17g}"]
             for key, limit in study.limits.items()]
-    write_csv(path, ["order", "grading", "phase", "quantity", "limit", "uncertainty", "mesh_order", "mesh_verdict",
-                     "mesh_uncertainty", "step_order", "step_verdict", "step_uncertainty"], rows)
+    write_csv(path, ["order", "grading", "phase", "quantity", "limit", "uncertainty", "mesh_order",
+                     "mesh_verdict", "mesh_uncertainty", "step_order", "step_verdict", "step_uncertainty"],
+              rows)
 
 
 def draw_errors(axes, study, name, steps):
@@ -165,11 +177,13 @@ def draw_errors(axes, study, name, steps):
         y = [study.series_error(family, r, name, steps) for r in runs]
         kept = [(a, b) for a, b in zip(x, y) if b > extrapolate.ROUND_OFF]  # no nan either
         if kept:
-            axes.plot(*zip(*kept), marker=MARKERS[index % len(MARKERS)], color=f"C{index}", label=family.label())
+            axes.plot(*zip(*kept), marker=MARKERS[index % len(MARKERS)], color=f"C{index}",
+                      label=family.label())
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel("accepted steps" if steps else "unknowns")
-    axes.set_ylabel(f"largest error of {name} at a phase's end\nrelative, against the limit of its series", fontsize=9)
+    axes.set_ylabel(f"largest error of {name} at a phase's end\nrelative, against the limit of its series",
+                    fontsize=9)
     axes.set_title(f"{name}: {'steps' if steps else 'mesh'} refined", fontsize=10)
     axes.grid(True, which="both", color="#e8e8e8", linewidth=0.6)
     if axes.get_legend_handles_labels()[0]:
@@ -183,13 +197,15 @@ def draw_curves(axes, study, name, steps):
     for rank, (result, colour) in enumerate(zip(runs, colours)):
         x = plot.stretched_time(result.run)[0]
         label = f"tolerance {result.case.tolerance}" if steps else f"n = {result.case.elements}"
-        axes.plot(x, result.run.history[CURVES[name]], color=colour, linewidth=1 + 0.8 * (len(runs) - rank - 1),
+        axes.plot(x, result.run.history[CURVES[name]], color=colour,
+                  linewidth=1 + 0.8 * (len(runs) - rank - 1),
                   label=label)
     plot.mark_phase_ends(axes, range(1, len(study.phases)))
     axes.set_xticks([k + 0.5 for k in range(len(study.phases))], [f"phase {p}" for p in study.phases])
     axes.set_xlabel("time, logarithmic in each phase")
     axes.set_ylabel({"N": "axial force N  (N)", "T": "torque T  (N mm)"}[name])
-    axes.set_title(f"{name}(t), {study.families[0].label()}, {'steps' if steps else 'mesh'} refined", fontsize=10)
+    axes.set_title(f"{name}(t), {study.families[0].label()}, {'steps' if steps else 'mesh'} refined",
+                   fontsize=10)
     if runs:
         axes.legend(fontsize=8, frameon=False)
     plot.frame(axes)
@@ -197,9 +213,9 @@ def draw_curves(axes, study, name, steps):
 
 def draw(study):
     figure, axes = plt.subplots(4, 2, figsize=(14, 18), layout="constrained")
+    rows = ((draw_errors, False), (draw_errors, True), (draw_curves, False), (draw_curves, True))
     for column, name in enumerate(CURVES):
-        for row, (draw_one, steps) in enumerate(((draw_errors, False), (draw_errors, True), (draw_curves, False),
-                                                 (draw_curves, True))):
+        for row, (draw_one, steps) in enumerate(rows):
             draw_one(axes[row, column], study, name, steps)
     return figure
 
@@ -207,13 +223,13 @@ def draw(study):
 def write(study, directory):
     """Everything, and the tables on standard output."""
     directory.mkdir(parents=True, exist_ok=True)
-    tables = [run_table(study), *(family_table(study, family) for family in study.families), agreement_table(study),
-              curve_table(study, False), curve_table(study, True)]
+    tables = [run_table(study), *(family_table(study, family) for family in study.families),
+              agreement_table(study), curve_table(study, False), curve_table(study, True)]
     print("\n".join(as_text(table) for table in tables))
     quantities = [f"- {name}: `{column}`" for name, column in QUANTITIES.items()]
-    (directory / "convergence.md").write_text("\n".join(["# Mesh and steps", "", "Values at phase ends; displacements are positive downwards.",
-                                                         "", *quantities, "",
-                                                         *(as_markdown(table) for table in tables)]), encoding="utf-8")
+    lines = ["# Mesh and steps", "", "Values at phase ends; displacements are positive downwards.", "",
+             *quantities, "", *map(as_markdown, tables)]
+    (directory / "convergence.md").write_text("\n".join(lines), encoding="utf-8")
     write_runs(study, directory / "runs.csv")
     write_limits(study, directory / "limits.csv")
     figure = draw(study)

@@ -1,18 +1,22 @@
-"""Powers fitted to measured costs, and what they say about larger problems on more processes. A model, not a measurement."""
+"""Powers fitted to measured costs, and what they say about larger problems on more processes. A model, not a
+measurement."""
 import collections
 import math
 
 import numpy
 
-Power = collections.namedtuple("Power", "factor exponent error")  # y = factor x^exponent; error: standard error of the exponent
-Machine = collections.namedtuple("Machine", "latency bandwidth neighbours")  # s, B/s of one process, blocks that a block touches
+# y = factor x^exponent; error: standard error of the exponent
+Power = collections.namedtuple("Power", "factor exponent error")
+# s, B/s of one process, blocks that a block touches
+Machine = collections.namedtuple("Machine", "latency bandwidth neighbours")
 
 # Per Newton iteration, of all processes together except reductions, which each makes; iterations: linear.
 Traffic = collections.namedtuple("Traffic", "ranks dofs iterations messages bytes reductions")
 
 
 def fit(x, y):
-    """Least squares in logarithms. The error is nan with two points, everything is nan with fewer or where y is not positive."""
+    """Least squares in logarithms. The error is nan with two points, everything is nan with fewer or where y
+    is not positive."""
     x, y = numpy.asarray(x, float), numpy.asarray(y, float)
     if len(set(x)) < 2 or min(y) <= 0:
         return Power(math.nan, math.nan, math.nan)
@@ -39,23 +43,27 @@ def line(x, y):
 
 
 class Model:
-    """Seconds of one Newton iteration with n dofs on p processes that each have a core and its memory to themselves:
+    """Seconds of one Newton iteration with n dofs on p processes that each have a core and its memory to
+    themselves:
 
         C(n)/p + latency (messages + 2 log2(p) reductions) + bytes / bandwidth
 
-    C: the power fitted on one process. Messages and bytes are those of one process, from the largest measured run on several (traffic),
-    per linear iteration; messages grow with the number of neighbours, at most machine.neighbours; bytes also with a block's surface,
-    (n/p)^(2/3), or its square root in the half plane (dimension 2); all with the linear iterations, whose power in n is fitted too.
-    p does not change the number of iterations, and the work is shared evenly."""
+    C: the power fitted on one process. Messages and bytes are those of one process, from the largest measured
+    run on several (traffic), per linear iteration; messages grow with the number of neighbours, at most
+    machine.neighbours; bytes also with a block's surface, (n/p)^(2/3), or its square root in the half plane
+    (dimension 2); all with the linear iterations, whose power in n is fitted too. p does not change the
+    number of iterations, and the work is shared evenly."""
 
     def __init__(self, cost, iterations, traffic, machine, dimension):
-        self.cost, self.iterations, self.traffic, self.machine, self.dimension = cost, iterations, traffic, machine, dimension
+        self.cost, self.iterations, self.traffic = cost, iterations, traffic
+        self.machine, self.dimension = machine, dimension
 
     def linear_iterations(self, dofs):
         return at(self.iterations, dofs)
 
     def parts(self, dofs, ranks):
-        """Seconds computing, waiting for latency, and moving bytes; the last two are 0 without measured traffic."""
+        """Seconds computing, waiting for latency, and moving bytes; the last two are 0 without measured
+        traffic."""
         compute = at(self.cost, dofs) / ranks
         t = self.traffic
         if ranks == 1 or not t:

@@ -1,23 +1,28 @@
-"""What each part of a run costs over dofs and over processes, beside the memory bandwidth of this machine; exponents; a model.
+"""What each part of a run costs over dofs and over processes, beside the memory bandwidth of this machine;
+exponents; a model.
 
-  tools/scaling [OPTIONS_FILE ...] [--elements 4,6,8] [--ranks 1,2] [--weak 1:6,2:8] [--repeats 1] [-- -option value ...]
+  tools/scaling [OPTIONS_FILE ...] [--elements 4,6,8] [--ranks 1,2] [--weak 1:6,2:8] [--repeats 1]
+                [-- -option value ...]
 
-The scene is that of the OPTIONS_FILEs (default: the paper's rheometer in space, options/paper/fig06.opts and options/solid/steady.opts)
-and of the options behind --. Every number of --elements (-elements_radial) is run on every number of --ranks (mpirun -n): strong scaling.
---weak RANKS:ELEMENTS,... are runs with about the same number of dofs a process; their efficiency is the first one's cost per dof over
-theirs, so the numbers need not be equal. One run after the other; of --repeats the one with the least CPU time counts.
+The scene is that of the OPTIONS_FILEs (default: the paper's rheometer in space, options/paper/fig06.opts and
+options/solid/steady.opts) and of the options behind --. Every number of --elements (-elements_radial) is run
+on every number of --ranks (mpirun -n): strong scaling. --weak RANKS:ELEMENTS,... are runs with about the same
+number of dofs a process; their efficiency is the first one's cost per dof over theirs, so the numbers need
+not be equal. One run after the other; of --repeats the one with the least CPU time counts.
 
-Times are wall seconds of the slowest process per Newton iteration, from PETSc's log: other work on the machine is in them. Efficiency:
-processes x time, of the fewest over of these. Beside it STREAM's triad, run now, on one core and on as many at once as there are
-processes: what waits for memory cannot be more efficient than that, unless it fits better into the caches (--no-triad leaves it out; it
-needs Google Benchmark, which tools/benchmark installs).
+Times are wall seconds of the slowest process per Newton iteration, from PETSc's log: other work on the
+machine is in them. Efficiency: processes x time, of the fewest over of these. Beside it STREAM's triad, run
+now, on one core and on as many at once as there are processes: what waits for memory cannot be more efficient
+than that, unless it fits better into the caches (--no-triad leaves it out; it needs Google Benchmark, which
+tools/benchmark installs).
 
-The exponents are those of y = c dofs^a on the fewest processes, by least squares, with their standard error from three meshes on. The
-model extrapolates them to --model-dofs and --model-ranks with a network's --latency and --bandwidth: no more than that. Messages are
-those that PETSc sends itself, not those inside MUMPS or hypre.
+The exponents are those of y = c dofs^a on the fewest processes, by least squares, with their standard error
+from three meshes on. The model extrapolates them to --model-dofs and --model-ranks with a network's --latency
+and --bandwidth: no more than that. Messages are those that PETSc sends itself, not those inside MUMPS or
+hypre.
 
-Writes scaling.csv (a line per run and event), scaling.md, .png and .pdf below --output. Status: 0, 1 when a run did not complete (the
-others are reported), 2 bad input.
+Writes scaling.csv (a line per run and event), scaling.md, .png and .pdf below --output.
+Status: 0, 1 when a run did not complete (the others are reported), 2 bad input.
 """
 import argparse
 import pathlib
@@ -47,7 +52,8 @@ class Study:
             self.failures.append(((ranks, elements), best.failure or "no log"))
         else:
             self.runs[ranks, elements] = best
-        progress(f"{elements} elements, {ranks} ranks: {best.counts.get('unknowns', '')} dofs, {best.cpu:.1f} CPU s",
+        progress(f"{elements} elements, {ranks} ranks: {best.counts.get('unknowns', '')} dofs, "
+                 f"{best.cpu:.1f} CPU s",
                  best.failure)
 
 
@@ -70,9 +76,12 @@ def parse(words):
     add("--no-triad", action="store_true")
     add("--triad", metavar="PROGRAM", help="kernel_benchmarks (default: built in build-native)")
     add("--latency", type=float, default=2e-6, help="seconds a message, of the model (default: %(default)s)")
-    add("--bandwidth", type=float, default=1e9, help="bytes a second of one process, of the model (default: %(default)s)")
-    add("--neighbours", type=int, default=12, help="processes that one exchanges with, of the model (default: %(default)s)")
-    add("--model-dofs", type=positives, default=[100_000, 1_000_000, 10_000_000], help="default: 1e5, 1e6, 1e7")
+    add("--bandwidth", type=float, default=1e9,
+        help="bytes a second of one process, of the model (default: %(default)s)")
+    add("--neighbours", type=int, default=12,
+        help="processes that one exchanges with, of the model (default: %(default)s)")
+    add("--model-dofs", type=positives, default=[100_000, 1_000_000, 10_000_000],
+        help="default: 1e5, 1e6, 1e7")
     add("--model-ranks", type=positives, default=[1, 2, 16, 128, 1024], help="default: 1,2,16,128,1024")
     add("--mpirun", default="mpirun")
     parser.add_program()
@@ -94,7 +103,8 @@ def main(words):
     most = {*a.ranks, *(ranks for ranks, _ in a.weak)}
     triad = {} if a.no_triad else triad_rates(sorted(most), a.triad)
     study = Study(a, program)
-    for ranks, elements in [(ranks, elements) for elements in sorted(a.elements) for ranks in a.ranks] + a.weak:
+    for ranks, elements in [(ranks, elements) for elements in sorted(a.elements)
+                            for ranks in a.ranks] + a.weak:
         study.run(ranks, elements)
     for (ranks, elements), failure in study.failures:
         progress(f"scaling: {elements} elements on {ranks} ranks: {failure}")

@@ -7,9 +7,10 @@ from .. import plot
 from ..tables import markdown, write_csv
 from .cost_model import Model, Traffic, at, fit, line
 
-SHOWN = ("SNESSolve", "SNESFunctionEval", "GelBulkResidual", "GelContactResid", "SNESJacobianEval", "GelBulkJacobian", "GelContactJacob",
-         "GelContactSearch", "GelContactMortar", "MatAssemblyEnd", "PCSetUp", "MatLUFactorSym", "MatLUFactorNum", "MatPtAPSymbolic",
-         "MatPtAPNumeric", "KSPSolve", "PCApply", "MatMult", "MatMultAdd", "MatSolve", "KSPGMRESOrthog", "GelObserve", "GelCheckpoint")
+SHOWN = ("SNESSolve", "SNESFunctionEval", "GelBulkResidual", "GelContactResid", "SNESJacobianEval",
+         "GelBulkJacobian", "GelContactJacob", "GelContactSearch", "GelContactMortar", "MatAssemblyEnd",
+         "PCSetUp", "MatLUFactorSym", "MatLUFactorNum", "MatPtAPSymbolic", "MatPtAPNumeric", "KSPSolve",
+         "PCApply", "MatMult", "MatMultAdd", "MatSolve", "KSPGMRESOrthog", "GelObserve", "GelCheckpoint")
 
 
 def dofs(run):
@@ -29,12 +30,13 @@ def megabytes(run):
 
 
 def write_events(path, runs):
-    names = ("elements", "ranks", "dofs", "newton", "linear", "cpu_s", "memory_MB", "event", "count", "seconds", "flops", "messages",
-             "bytes", "reductions")
+    names = ("elements", "ranks", "dofs", "newton", "linear", "cpu_s", "memory_MB", "event", "count",
+             "seconds", "flops", "messages", "bytes", "reductions")
     rows = []
     for (ranks, elements), run in runs.items():
         for event, numbers in run.events.items():
-            rows.append([elements, ranks, dofs(run), run.newton, run.counts["linear_iterations"], f"{run.cpu:.3f}",
+            rows.append([elements, ranks, dofs(run), run.newton, run.counts["linear_iterations"],
+                         f"{run.cpu:.3f}",
                          f"{megabytes(run):.1f}", event, *(f"{number:.6g}" for number in numbers)])
     write_csv(path, names, rows)
 
@@ -54,12 +56,15 @@ def runs_table(runs):
     rows = []
     for (ranks, elements), run in sorted(runs.items(), key=lambda item: item[0][::-1]):
         n = dofs(run)
-        rows.append([elements, ranks, n, run.newton, f"{linear_per_newton(run):.1f}", f"{per_newton(run):.4g}",
-                     f"{100 * run.rest_of_newton:.0f}", f"{run.cpu:.1f}", f"{megabytes(run):.0f}", f"{1e3 * megabytes(run) / n:.3g}",
+        rows.append([elements, ranks, n, run.newton, f"{linear_per_newton(run):.1f}",
+                     f"{per_newton(run):.4g}",
+                     f"{100 * run.rest_of_newton:.0f}", f"{run.cpu:.1f}", f"{megabytes(run):.0f}",
+                     f"{1e3 * megabytes(run) / n:.3g}",
                      f"{per_newton(run, what='flops') / n:.3g}", f"{per_newton(run, what='messages'):.3g}",
                      f"{per_newton(run, what='bytes') / n:.3g}", f"{per_newton(run, what='reductions'):.3g}"])
-    return markdown(["elements", "ranks", "dofs", "Newton", "linear/Newton", "s/Newton", "rest %", "CPU s", "MB", "kB/dof",
-                  "flop/dof/Newton", "messages/Newton", "B/dof/Newton", "reductions/Newton"], rows)
+    return markdown(["elements", "ranks", "dofs", "Newton", "linear/Newton", "s/Newton", "rest %", "CPU s",
+                     "MB", "kB/dof", "flop/dof/Newton", "messages/Newton", "B/dof/Newton",
+                     "reductions/Newton"], rows)
 
 
 def by_elements(runs):
@@ -81,21 +86,27 @@ def strong_tables(runs, triad):
             row = [name, first.event(name).count, f"{per_newton(first, name):.3g}"]
             for run in others:
                 row += [f"{per_newton(run, name):.3g}", f"{efficiency(first, run, name):.2f}",
-                        f"{per_newton(run, name, 'messages'):.3g}", f"{per_newton(run, name, 'bytes') / 1e6:.3g}"]
+                        f"{per_newton(run, name, 'messages'):.3g}",
+                        f"{per_newton(run, name, 'bytes') / 1e6:.3g}"]
             rows.append(row)
         if triad and first.ranks == 1:
-            rows.append(["memory bandwidth", "", ""] + [cell for run in others for cell in
-                                                         ("", f"{triad[run.ranks] / triad[1] / run.ranks:.2f}", "", "")])
+            row = ["memory bandwidth", "", ""]
+            for run in others:
+                row += ["", f"{triad[run.ranks] / triad[1] / run.ranks:.2f}", "", ""]
+            rows.append(row)
         head = ["event", "count", f"s, {first.ranks}"]
         for run in others:
-            head += [f"s, {run.ranks}", f"efficiency, {run.ranks}", f"messages, {run.ranks}", f"MB, {run.ranks}"]
-        parts.append(f"{elements} elements, {dofs(first)} dofs; per Newton iteration, by ranks:\n\n" + markdown(head, rows))
+            head += [f"s, {run.ranks}", f"efficiency, {run.ranks}", f"messages, {run.ranks}",
+                     f"MB, {run.ranks}"]
+        parts.append(f"{elements} elements, {dofs(first)} dofs; per Newton iteration, by ranks:\n\n"
+                     + markdown(head, rows))
     return "\n\n".join(parts)
 
 
 def weak_table(runs, weak):
     found = [runs[pair] for pair in weak if pair in runs]
-    rows = [[run.ranks, dofs(run), f"{dofs(run) / run.ranks:.0f}", f"{linear_per_newton(run):.1f}", f"{per_newton(run):.4g}",
+    rows = [[run.ranks, dofs(run), f"{dofs(run) / run.ranks:.0f}", f"{linear_per_newton(run):.1f}",
+             f"{per_newton(run):.4g}",
              f"{weak_efficiency(found[0], run):.2f}"] for run in found]
     return markdown(["ranks", "dofs", "dofs a rank", "linear/Newton", "s/Newton", "efficiency"], rows)
 
@@ -128,7 +139,8 @@ def exponents(series):
     for name, value in QUANTITIES.items():
         power = fit(x, [value(run) for run in series])
         text = "" if math.isnan(power.exponent) else f"{power.exponent:.2f}"
-        rows.append([name, text + ("" if math.isnan(power.error) else f" ± {power.error:.2f}"), f"{value(series[-1]):.4g}"])
+        rows.append([name, text + ("" if math.isnan(power.error) else f" ± {power.error:.2f}"),
+                     f"{value(series[-1]):.4g}"])
     return rows
 
 
@@ -141,9 +153,9 @@ def summary(series):
         sentence = f"Cost of a Newton iteration ~ dofs^{power.exponent:.2f} from {x[0]} to {x[-1]} dofs"
     if not math.isnan(power.error):
         sentence += f" (standard error {power.error:.2f})"
-    return (f"{sentence}. Memory: {1e3 * megabytes(last) / x[-1]:.3g} kB/dof at {x[-1]} dofs; {offset:.0f} MB + {1e3 * slope:.3g} kB/dof "
-            f"by a straight line. The part of a Newton iteration that is not the linear solver: "
-            f"{100 * last.rest_of_newton:.0f} % at {x[-1]} dofs.")
+    return (f"{sentence}. Memory: {1e3 * megabytes(last) / x[-1]:.3g} kB/dof at {x[-1]} dofs; {offset:.0f} "
+            f"MB + {1e3 * slope:.3g} kB/dof by a straight line. The part of a Newton iteration that is not "
+            f"the linear solver: {100 * last.rest_of_newton:.0f} % at {x[-1]} dofs.")
 
 
 def model_of(runs, machine):
@@ -167,9 +179,12 @@ def model_table(model, series, sizes, counts):
     for n in sizes:
         for p in counts:
             compute, latency, bandwidth = model.parts(n, p)
-            rows.append([n, p, f"{model.linear_iterations(n):.1f}", f"{compute:.3g}", f"{latency:.2g}", f"{bandwidth:.2g}",
-                         f"{model.seconds(n, p):.3g}", f"{model.efficiency(n, p):.2f}", f"{offset + slope * n / p:.0f}"])
-    return markdown(["dofs", "ranks", "linear/Newton", "computing s", "latency s", "bytes s", "s/Newton", "efficiency", "MB a rank"], rows)
+            rows.append([n, p, f"{model.linear_iterations(n):.1f}", f"{compute:.3g}", f"{latency:.2g}",
+                         f"{bandwidth:.2g}",
+                         f"{model.seconds(n, p):.3g}", f"{model.efficiency(n, p):.2f}",
+                         f"{offset + slope * n / p:.0f}"])
+    return markdown(["dofs", "ranks", "linear/Newton", "computing s", "latency s", "bytes s", "s/Newton",
+                     "efficiency", "MB a rank"], rows)
 
 
 def report(runs, weak, triad, machine, sizes, counts):
@@ -177,7 +192,8 @@ def report(runs, weak, triad, machine, sizes, counts):
     parts = ["# Scaling", summary(series)]
     if triad:
         parts.append("Memory bandwidth (STREAM triad): " + "; ".join(
-            f"{p} at once {rate / 1e9:.1f} GB/s, {rate / triad[1]:.2f} times one core's" for p, rate in triad.items()) + ".")
+            f"{p} at once {rate / 1e9:.1f} GB/s, {rate / triad[1]:.2f} times one core's"
+            for p, rate in triad.items()) + ".")
     parts += ["## Runs", runs_table(runs)]
     if strong := strong_tables(runs, triad):
         parts += ["## Strong scaling", strong]
@@ -185,11 +201,15 @@ def report(runs, weak, triad, machine, sizes, counts):
         parts += ["## Weak scaling", weak_table(runs, weak)]
     if len(series) > 1:
         model = model_of(runs, machine)
-        parts += [f"## Over dofs, on {series[0].ranks} rank(s)", markdown(["quantity", "exponent", "at the largest"], exponents(series)),
-                  "## Model", f"Extrapolated, not measured, from {len(series)} meshes up to {dofs(series[-1])} dofs: seconds of a Newton "
-                  f"iteration = {model.cost.factor:.3g} dofs^{model.cost.exponent:.2f} / ranks + latency + bytes, with {machine.latency:g} s a message, "
-                  f"{machine.bandwidth:g} B/s for each rank, at most {machine.neighbours} neighbours, linear iterations ~ "
-                  f"dofs^{model.iterations.exponent:.2f}, a core and its memory bandwidth to each rank, and no loss by uneven work.",
+        parts += [f"## Over dofs, on {series[0].ranks} rank(s)",
+                  markdown(["quantity", "exponent", "at the largest"], exponents(series)),
+                  "## Model",
+                  f"Extrapolated, not measured, from {len(series)} meshes up to {dofs(series[-1])} dofs: "
+                  f"seconds of a Newton iteration = {model.cost.factor:.3g} dofs^{model.cost.exponent:.2f} "
+                  f"/ ranks + latency + bytes, with {machine.latency:g} s a message, {machine.bandwidth:g} "
+                  f"B/s for each rank, at most {machine.neighbours} neighbours, linear iterations ~ "
+                  f"dofs^{model.iterations.exponent:.2f}, a core and its memory bandwidth to each rank, and "
+                  "no loss by uneven work.",
                   model_table(model, series, sizes, counts)]
         if not model.traffic:
             parts.append("No run on several ranks: nothing is known of messages, and they are left out.")
@@ -218,10 +238,12 @@ def draw(stem, runs, triad):
         names = [name for name in SHOWN if first.event(name).seconds > 0.02 * first.newton_seconds]
         for k, run in enumerate(others):
             width = 0.8 / len(others)
-            right.barh([i + k * width for i in range(len(names))], [efficiency(first, run, name) for name in names], width,
+            right.barh([i + k * width for i in range(len(names))],
+                       [efficiency(first, run, name) for name in names], width,
                        label=f"{run.ranks} ranks")
             if triad and first.ranks == 1:
-                right.axvline(triad[run.ranks] / triad[1] / run.ranks, color=f"C{k}", ls="--", label=f"memory bandwidth, {run.ranks}")
+                right.axvline(triad[run.ranks] / triad[1] / run.ranks, color=f"C{k}", ls="--",
+                              label=f"memory bandwidth, {run.ranks}")
         right.set_yticks(range(len(names)), names, fontsize=8)
         right.set_title(f"strong scaling, {dofs(first)} dofs", fontsize=10)
         right.set_xlabel("efficiency")

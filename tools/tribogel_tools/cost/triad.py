@@ -15,8 +15,10 @@ def kernel_benchmarks():
 
 def bytes_per_second(program, processes):
     """Of all processes together, started at once. They run for a second each, so that they overlap."""
-    command = [str(program), "--benchmark_filter=^triad$", "--benchmark_format=json", "--benchmark_min_time=1"]
-    started = [subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) for _ in range(processes)]
+    command = [str(program), "--benchmark_filter=^triad$", "--benchmark_format=json",
+               "--benchmark_min_time=1"]
+    started = [subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+               for _ in range(processes)]
     rates = []
     for process in started:
         text = process.communicate()[0]

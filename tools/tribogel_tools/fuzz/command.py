@@ -3,13 +3,14 @@
   tools/fuzz [--cases 10000] [--first 0] [--seed 1] [--jobs 2] [--program build/tribogel]
   tools/fuzz --seed 1 --case 1234        # one of them, with its words and files
 
-A case is options on the command line, in files, in .petscrc and in PETSC_OPTIONS. Others are files of
-meshes, runs that go on after a change, and files that cannot grow. Of each it is known whether it must be refused, must run,
-must be refused or run with a warning, or may do either; seed and number make a case, whatever the others are.
-Wrong is: another exit status than 0, 2, 3, 4, or no end within --timeout; a trace of PETSc, MPI or a sanitizer; a refusal
-that is not one line beginning "tribogel: error: ", that holds a control character, names no option or file, or wrote
-something; status 3 without a reason; status 0 or 4 with anything but finite N and T in history.csv, with a row lost, or with
-other options than asked for; a history that ends within a row; another N for the same mesh in other words.
+A case is options on the command line, in files, in .petscrc and in PETSC_OPTIONS. Others are files of meshes,
+runs that go on after a change, and files that cannot grow. Of each it is known whether it must be refused,
+must run, must be refused or run with a warning, or may do either; seed and number make a case, whatever the
+others are. Wrong is: another exit status than 0, 2, 3, 4, or no end within --timeout; a trace of PETSc, MPI
+or a sanitizer; a refusal that is not one line beginning "tribogel: error: ", that holds a control character,
+names no option or file, or wrote something; status 3 without a reason; status 0 or 4 with anything but finite
+N and T in history.csv, with a row lost, or with other options than asked for; a history that ends within a
+row; another N for the same mesh in other words.
 Status: 0 when nothing was wrong, 1 when something was, 2 bad input.
 """
 import collections
@@ -31,15 +32,17 @@ from .cases import case_of
 from .scenes import options_of
 
 LONGEST_LINE = 4000  # characters of a refusal
-TRACES = ("PETSC ERROR", "MPI_ABORT", "MPI_Abort", "mpi_abort", "Sanitizer", "runtime error", "terminate called", "HDF5-DIAG",
-          "Segmentation", "Assertion", "Fatal error", "corrupt", "double free", "[0]", "std::")
+TRACES = ("PETSC ERROR", "MPI_ABORT", "MPI_Abort", "mpi_abort", "Sanitizer", "runtime error",
+          "terminate called", "HDF5-DIAG", "Segmentation", "Assertion", "Fatal error", "corrupt",
+          "double free", "[0]", "std::")
 STATUSES = {0: "complete", 2: "refused", 3: "cannot go on", 4: "stopped"}
 
 
 def prepare(directory, case):
     """What the cases expect to find, and their files."""
     (directory / "a_file").write_text("mine\n")
-    for run, file, text in (("a_run", "history.csv", b"an older run\n"), ("a_text", "checkpoint.h5", b"not HDF5\n"),
+    for run, file, text in (("a_run", "history.csv", b"an older run\n"),
+                            ("a_text", "checkpoint.h5", b"not HDF5\n"),
                             ("an_hdf5", "checkpoint.h5", b"\x89HDF\r\n\x1a\n" + bytes(range(256)) * 20)):
         (directory / run).mkdir()
         (directory / run / file).write_bytes(text)
@@ -78,10 +81,12 @@ def faults_of_summary(run, case, rows):
     if len(rows) != steps + 1:
         wrong.append(f"{len(rows)} rows in history.csv after {steps} steps")
     options = summary["options"]
-    wrong += [f"asked for {name} = {text}, run with {options.get(name[1:])}" for name, text in case.asked.items()
+    wrong += [f"asked for {name} = {text}, run with {options.get(name[1:])}"
+              for name, text in case.asked.items()
               if text is not None and options.get(name[1:]) != text][:1]
     if case.same_as_first:
-        forces = [float(row["normal_force_N"]) for row in (rows[-1], read_csv(run.parent / "first" / "history.csv")[-1])]
+        forces = [float(row["normal_force_N"])
+                  for row in (rows[-1], read_csv(run.parent / "first" / "history.csv")[-1])]
         if abs(forces[0] - forces[1]) > 1e-6 * abs(forces[1]):
             wrong.append(f"N = {forces[0]} N, and {forces[1]} N for the same mesh")
     return wrong
@@ -110,10 +115,12 @@ def judge(case, done, before, directory):
     if case.expected == "runs" and done.returncode not in (0, 4):
         return [*wrong, f"a sensible case: status {done.returncode}, {done.stderr[:500]!r}"]
     said = [line for line in done.stdout.splitlines() if line.startswith(("warning: ", "note: "))]
-    if case.expected == "told" and done.returncode != REFUSED and not any(name in " ".join(said) for name in case.names):
+    named = any(name in " ".join(said) for name in case.names)
+    if case.expected == "told" and done.returncode != REFUSED and not named:
         wrong.append(f"status {done.returncode} without a word of {case.names}: {said!r:.500}")
     if done.returncode == REFUSED:
-        return wrong + faults_of_refusal(done, before, directory) + faults_of_words(case, done.stderr.rstrip("\n"))
+        return [*wrong, *faults_of_refusal(done, before, directory),
+                *faults_of_words(case, done.stderr.rstrip("\n"))]
     if done.returncode == 3 and not (done.stderr.startswith(program.ERROR) and done.stderr.count("\n") == 1):
         wrong.append(f"status 3 without one line of reason: {done.stderr[:500]!r}")
     if done.returncode != 3 and done.stderr:
@@ -134,7 +141,8 @@ def run_case(number, arguments, options):
             if case.first:
                 first = start([str(arguments.program), *case.first], directory, arguments.timeout)
                 if first.returncode not in (0, 4):
-                    return case, "first failed", [f"the run before: status {first.returncode} {first.stderr[:500]!r}"]
+                    said = f"the run before: status {first.returncode} {first.stderr[:500]!r}"
+                    return case, "first failed", [said]
             write(directory, case.change)
             before = contents(directory)
             if case.room is not None:
@@ -180,7 +188,8 @@ def main(words):
         options = options_of(program.start([arguments.program, "-help", "markdown"]).stdout)
     except ValueError as error:
         raise BadInput(f"{arguments.program} -help markdown: {error}") from None
-    numbers = range(arguments.first, arguments.first + arguments.cases) if arguments.case is None else [arguments.case]
+    numbers = range(arguments.first,
+                    arguments.first + arguments.cases) if arguments.case is None else [arguments.case]
     counts, failures = collections.Counter(), 0
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         results = pool.map(lambda number: run_case(number, arguments, options), numbers)

@@ -1,5 +1,5 @@
-"""Mesh files for tools/fuzz: two small gels of solids as tools/specimen-mesh makes them, written as other programs may
-write the same mesh, or spoiled."""
+"""Mesh files for tools/fuzz: two small gels of solids as tools/specimen-mesh makes them, written as other
+programs may write the same mesh, or spoiled."""
 import argparse
 import io
 
@@ -15,14 +15,17 @@ ENDS = ("\n", "\r\n", "\r")
 def gels(random):
     """The mesh, and the options of its scene."""
     order, top, bottom = random.choice((1, 1, 2)), between(random, 2, 5), between(random, 2, 5)
-    shape = argparse.Namespace(shape=random.choice(("round", "square", "ellipse")), radius=between(random, 6, 10), height=top,
-                               bottom_radius=16, bottom_height=bottom, gap=0, ratio=random.uniform(1, 1.3), elements=2,
+    shape = argparse.Namespace(shape=random.choice(("round", "square", "ellipse")),
+                               radius=between(random, 6, 10), height=top,
+                               bottom_radius=16, bottom_height=bottom, gap=0, ratio=random.uniform(1, 1.3),
+                               elements=2,
                                layers=random.choice((1, 2)), order=order)
     approach = number((top + bottom) * random.uniform(0.01, 0.04))
-    settings = {"-model": "solid", "-mesh_file": "gels.msh", "-element_order": str(order), "-plate_contact": "false",
-                "-top_material": "hyperelastic", "-bottom_material": "hyperelastic", "-friction_coefficients": "1e-3",
-                "-friction_exponents": "1", "-schedule_end_times": "1", "-schedule_approach": approach, "-schedule_rates": "0",
-                "-time_tolerance": "5"}
+    settings = {"-model": "solid", "-mesh_file": "gels.msh", "-element_order": str(order),
+                "-plate_contact": "false", "-top_material": "hyperelastic",
+                "-bottom_material": "hyperelastic", "-friction_coefficients": "1e-3",
+                "-friction_exponents": "1", "-schedule_end_times": "1", "-schedule_approach": approach,
+                "-schedule_rates": "0", "-time_tolerance": "5"}
     return specimens(shape), settings
 
 
@@ -138,7 +141,8 @@ def other_elements(random, mesh):
 
 def without_last_lines(random, mesh):
     lines = text_of(mesh).splitlines(keepends=True)
-    return "".join(lines[:random.randrange(len(lines) - 1)]), ("line", "$", "physical", "node", "element", "ends")
+    left = "".join(lines[:random.randrange(len(lines) - 1)])
+    return left, ("line", "$", "physical", "node", "element", "ends")
 
 
 def no_such_node(random, mesh):
@@ -184,7 +188,8 @@ def spoiled_mesh(random, _):
     mesh, settings = gels(random)
     how = random.choice(SPOILED)
     text, names = how(random, mesh)
-    return Case(f"mesh {how.__name__.replace('_', ' ')}", "refused", list(settings.items()), names=(*names, "-mesh_file"),
+    return Case(f"mesh {how.__name__.replace('_', ' ')}", "refused", list(settings.items()),
+                names=(*names, "-mesh_file"),
                 files={"gels.msh": text.encode()})
 
 

@@ -21,7 +21,8 @@ def scene(random):
 def goes_on(random, _):
     """Continued as it was, or with what may change."""
     settings = scene(random)
-    more = random.choice(([], ["-checkpoint_every", "5"], ["-snes_max_it", "40"], ["-wall_time", "1000"], ["-log_view"]))
+    more = random.choice(([], ["-checkpoint_every", "5"], ["-snes_max_it", "40"], ["-wall_time", "1000"],
+                          ["-log_view"]))
     return Case("restart", "runs", words=["-restart", "run", *more],
                 first=[*words_of(settings), "-output_directory", "run", *STOPPED])
 
@@ -29,13 +30,16 @@ def goes_on(random, _):
 def goes_on_changed(random, _):
     """Continued as another scene."""
     settings = scene(random)
-    name, text = random.choice((("-top_radius", "3"), ("-bottom_height", "1.25"), ("-schedule_end_times", "1e4"), ("-element_order", None),
-                                ("-elements_radial", "5"), ("-bottom_bulk_modulus", "777"), ("-model", "solid")))
+    name, text = random.choice((("-top_radius", "3"), ("-bottom_height", "1.25"),
+                                ("-schedule_end_times", "1e4"), ("-element_order", None),
+                                ("-elements_radial", "5"), ("-bottom_bulk_modulus", "777"),
+                                ("-model", "solid")))
     if text is None:
         text = "2" if settings["-element_order"] == "1" else "1"
     if settings.get("-specimens") == "bottom" and name == "-top_radius":
         name, text = "-bottom_radius", "3"
-    return Case(f"restart with another {name}", "refused", words=["-restart", "run", name, text], names=(name,),
+    return Case(f"restart with another {name}", "refused", words=["-restart", "run", name, text],
+                names=(name,),
                 first=[*words_of(settings), "-output_directory", "run", *STOPPED])
 
 
@@ -48,7 +52,8 @@ def damaged(random, _):
     def cut(content):
         return content[:int(part * (len(content) - 1))]
     return Case(f"restart from a shorter {file}", "refused", words=["-restart", "run"], names=("-restart",),
-                first=[*words_of(settings), "-output_directory", "run", *STOPPED], change={f"run/{file}": cut})
+                first=[*words_of(settings), "-output_directory", "run", *STOPPED],
+                change={f"run/{file}": cut})
 
 
 def other_mesh(random, _):
@@ -66,15 +71,17 @@ def other_mesh(random, _):
         path = "there/other.msh"
     after = renumbered(random, mesh) if about == "nodes renumbered" else text_of(mesh)
     return Case(f"restart with {about}", expected, names=("mesh",), files={"gels.msh": before.encode()},
-                first=[*words_of(settings), "-output_directory", "run", *STOPPED], change={path: after.encode()},
+                first=[*words_of(settings), "-output_directory", "run", *STOPPED],
+                change={path: after.encode()},
                 words=["-restart", "run", *(["-mesh_file", path] if path != "gels.msh" else [])])
 
 
 def no_room(random, _):
     """A file of the run may grow to so many bytes and no further."""
     settings = scene(random)
-    return Case("no room for a file", "either", list((settings | {"-checkpoint_every": random.choice(("0", "600")),
-                                                                 "-output_directory": "run"}).items()),
+    return Case("no room for a file", "either",
+                list((settings | {"-checkpoint_every": random.choice(("0", "600")),
+                                  "-output_directory": "run"}).items()),
                 room=random.choice((0, random.randint(1, 3000), random.randint(3000, 60000))))
 
 
@@ -82,6 +89,9 @@ def unusual_line_ends(random, _):
     """Read as lines, or refused by the file's name; never the rest of the file as a remark."""
     end = random.choice(("\r", "\u2028", "\u2029", "\u0085", "\v", "\f", "\r\r\n"))
     mark, settings = random.choice(("", "", "\ufeff")), scene(random)
-    text = mark + "# a scene" + end + end.join(" ".join(filter(None, pair)) for pair in settings.items()) + end
-    return Case(f"file with lines that end in {end!r}{' after a mark' if mark else ''}", "either", names=("unusual.opts",),
-                words=["-options_file", "unusual.opts"], files={"unusual.opts": text.encode()}, asked=settings)
+    lines = [" ".join(filter(None, pair)) for pair in settings.items()]
+    text = mark + end.join(["# a scene", *lines]) + end
+    return Case(f"file with lines that end in {end!r}{' after a mark' if mark else ''}", "either",
+                names=("unusual.opts",),
+                words=["-options_file", "unusual.opts"], files={"unusual.opts": text.encode()},
+                asked=settings)

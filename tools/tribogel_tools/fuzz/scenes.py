@@ -1,4 +1,5 @@
-"""Scenes for tools/fuzz: the options as the program lists them, and sensible scenes that are over in a moment."""
+"""Scenes for tools/fuzz: the options as the program lists them, and sensible scenes that are over in a
+moment."""
 import dataclasses
 import math
 import re
@@ -37,7 +38,9 @@ def parsed(row):
     count = re.match(r"(\d+) real numbers", allowed)
     text = allowed[len(count.group(1)) + 1:] if count else allowed
     kind = next((kind for start, kind in kinds if text.startswith(start)), "choice")
-    bounds = re.match(r"[a-z ]*(?:(>=?) (\S+)|(\S+) to ([\d.e+]+))", text) if kind in ("real", "reals", "integer") else None
+    bounds = None
+    if kind in ("real", "reals", "integer"):
+        bounds = re.match(r"[a-z ]*(?:(>=?) (\S+)|(\S+) to ([\d.e+]+))", text)
     low, high, excluded = -math.inf, math.inf, False
     if bounds and bounds.group(1) and "where" not in bounds.group(0):
         low, excluded = float(bounds.group(2).rstrip(",")), bounds.group(1) == ">"
@@ -122,18 +125,23 @@ def sensible(random):
     settings = {"-top_radius": number(radius), "-top_height": number(top),
                 "-bottom_radius": number(radius * random.uniform(1.1, 1.5)), "-bottom_height": number(bottom),
                 "-element_order": random.choice("12"), "-elements_radial": random.choice("123"),
-                "-mesh_grading": number(between(random, 1, 30)), "-time_tolerance": number(between(random, 0.3, 5))}
+                "-mesh_grading": number(between(random, 1, 30)),
+                "-time_tolerance": number(between(random, 0.3, 5))}
     alone = random.random() < 0.25
     if alone:
         settings["-specimens"] = "bottom"
     settings |= material(random, "bottom") | schedule(random, bottom if alone else top + bottom, steady)
     if not alone:
         settings |= material(random, "top") | friction(random, steady)
-    extras = {"-plate_contact": random.choice(("true", "false", None)), "-checkpoint_every": random.choice(("0", "600")),
+    extras = {"-plate_contact": random.choice(("true", "false", None)),
+              "-checkpoint_every": random.choice(("0", "600")),
               "-maxwell_integrator": random.choice(("sdirk2", "exponential_euler")), "-overwrite": None,
-              "-phase_end_tolerance": number(random.uniform(0, 2)), "-model": "axisymmetric", "-task": "simulate",
-              "-wall_time": number(between(random, 0.05, 50)), "-bottom_elements_radial": random.choice("0123"),
-              "-contact_integration": "segments", "-output_directory": random.choice(("run", "a/b/c", "with blank"))}
+              "-phase_end_tolerance": number(random.uniform(0, 2)), "-model": "axisymmetric",
+              "-task": "simulate",
+              "-wall_time": number(between(random, 0.05, 50)),
+              "-bottom_elements_radial": random.choice("0123"),
+              "-contact_integration": "segments",
+              "-output_directory": random.choice(("run", "a/b/c", "with blank"))}
     for name in random.sample(sorted(extras), random.randint(0, 4)):
         settings[name] = extras[name]
     return settings
@@ -146,7 +154,8 @@ def elements_of(settings, default):
     try:
         alone = settings.get("-specimens") == "bottom"
         radius = value("-bottom_radius" if alone else "-top_radius")
-        along = max(value("-elements_radial"), value("-bottom_elements_radial")) * 2**value("-mesh_refinements")
+        along = max(value("-elements_radial"),
+                    value("-bottom_elements_radial")) * 2**value("-mesh_refinements")
         heights = value("-top_height") + value("-bottom_height")
         return 2 * along**2 * max(1, heights / radius) * max(1, value("-bottom_radius") / radius)
     except (TypeError, ValueError, ArithmeticError):

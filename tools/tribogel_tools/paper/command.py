@@ -1,11 +1,13 @@
-"""Runs every numerical experiment of the paper and writes one report that puts each figure and table beside its words.
+"""Runs every numerical experiment of the paper and writes one report that puts each figure and table beside
+its words.
 
   tools/reproduce-paper [--output tribogel-paper] [--jobs 2]
   tools/reproduce-paper --redraw --output tribogel-paper     from the runs that are there
 
-Into the output directory: report.html (nothing outside it is needed to read it), report.pdf, figures/*.png, and all runs below
-runs/. The axisymmetric model runs everything, three cases also run in space. Each number comes with its errors of mesh and step.
-A few minutes on two cores. --quick is for tests: meshes so coarse that numbers and verdicts mean little, nothing in space.
+Into the output directory: report.html (nothing outside it is needed to read it), report.pdf, figures/*.png,
+and all runs below runs/. The axisymmetric model runs everything, three cases also run in space. Each number
+comes with its errors of mesh and step. A few minutes on two cores. --quick is for tests: meshes so coarse
+that numbers and verdicts mean little, nothing in space.
 Status: 0, 1 when a run failed, 2 bad input.
 """
 import resource

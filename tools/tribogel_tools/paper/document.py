@@ -1,4 +1,5 @@
-"""The report as a list of blocks, and as one HTML page that needs nothing else: pictures are inside as base64."""
+"""The report as a list of blocks, and as one HTML page that needs nothing else: pictures are inside as
+base64."""
 import base64
 import dataclasses
 import html
@@ -45,7 +46,8 @@ class Findings:
 VERDICTS = {"holds": "#2f7d4f", "does not hold": "#b3372b", "sensitive": "#b06a00", "not given": "#5a5a8a"}
 
 STYLE = """
-body { font: 16px/1.5 system-ui, "DejaVu Sans", sans-serif; color: #222; max-width: 60em; margin: 2em auto; padding: 0 1em; }
+body { font: 16px/1.5 system-ui, "DejaVu Sans", sans-serif; color: #222; max-width: 60em; margin: 2em auto;
+  padding: 0 1em; }
 h1 { font-size: 1.7em; line-height: 1.25; }
 h2 { font-size: 1.3em; margin-top: 2.2em; border-top: 1px solid #ddd; padding-top: .8em; }
 h3 { font-size: 1.05em; margin-top: 1.6em; }
@@ -55,7 +57,8 @@ table { border-collapse: collapse; font-size: .86em; margin: 1em 0; }
 caption { caption-side: top; text-align: left; padding-bottom: .4em; }
 th, td { padding: .3em .7em; border-bottom: 1px solid #ddd; text-align: left; vertical-align: top; }
 th { background: #f4f4f4; }
-figure { margin: 1.2em 0; } figure img { width: 100%; height: auto; } figcaption { font-size: .9em; color: #444; }
+figure { margin: 1.2em 0; } figure img { width: 100%; height: auto; }
+figcaption { font-size: .9em; color: #444; }
 .verdict { font-weight: 600; white-space: nowrap; } .wide { overflow-x: auto; }
 nav { font-size: .92em; }
 """
@@ -85,7 +88,8 @@ def _block(block):
     if isinstance(block, Table):
         return _table(map(escaped, block.header), [map(escaped, row) for row in block.rows], block.caption)
     if isinstance(block, Findings):
-        rows = [(f'<span class="verdict" style="color:{VERDICTS[verdict]}">{escaped(verdict)}</span>', escaped(statement),
+        rows = [(f'<span class="verdict" style="color:{VERDICTS[verdict]}">{escaped(verdict)}</span>',
+                 escaped(statement),
                  escaped(measured), f'<a href="#{escaped(anchor)}">where</a>')
                 for verdict, statement, measured, anchor in block.rows]
         return _table(("", "statement", "measured", ""), rows)

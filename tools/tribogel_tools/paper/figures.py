@@ -16,7 +16,8 @@ PAIRS = {"viscoelastic / viscoelastic": "fig12_ve_ve", "hyperelastic / viscoelas
 
 
 def new_figure(columns, height=3.3, rows=1, **how):
-    figure, axes = plt.subplots(rows, columns, figsize=(9.6, height * rows), layout="constrained", squeeze=False, **how)
+    figure, axes = plt.subplots(rows, columns, figsize=(9.6, height * rows), layout="constrained",
+                                squeeze=False, **how)
     return figure, axes.ravel()
 
 
@@ -38,8 +39,8 @@ def titled(axes, title, abscissa, ordinate):
 
 
 def normalised(run):
-    """t, N/Nref and T/Tref: Nref is the long-time value of N, Tref = Nref Rmin. What is left of a torque before any
-    rotation is round-off and drawn as zero."""
+    """t, N/Nref and T/Tref: Nref is the long-time value of N, Tref = Nref Rmin. What is left of a torque
+    before any rotation is round-off and drawn as zero."""
     history = run.history
     reference = run.force()
     torque = plot.without_round_off(history["torque_Nmm"], reference * run.radius)
@@ -101,17 +102,21 @@ def figure5(results):
     rows = np.concatenate((run.drawn.rows[2], run.drawn.rows[3][1:]))
     rows = rows[time[rows] < HOUR + 120]
     before = run.force(2)
-    rise.plot(time[rows] - HOUR, 100 * (run.history["normal_force_N"][rows] / before - 1), "o-", color=BLUE, markersize=3)
+    rise.plot(time[rows] - HOUR, 100 * (run.history["normal_force_N"][rows] / before - 1), "o-", color=BLUE,
+              markersize=3)
     rise.axhline(100 * (run.force() / before - 1), color=GREY, linewidth=0.9, linestyle="--")
-    rise.annotate("long-time value", (0.98, 100 * (run.force() / before - 1)), (0, -4), va="top", ha="right", fontsize=8,
+    rise.annotate("long-time value", (0.98, 100 * (run.force() / before - 1)), (0, -4), va="top", ha="right",
+                  fontsize=8,
                   xycoords=("axes fraction", "data"), textcoords="offset points", color="#444444")
-    titled(rise, "N when the twist comes (27 s) and stays", "time since the twist began  (s)", "rise of N  (%)")
+    titled(rise, "N when the twist comes (27 s) and stays", "time since the twist began  (s)",
+           "rise of N  (%)")
     relaxed = results.of("torsion/1")
     twist = np.array(runs.TWISTS)
     rises = np.array([relaxed.force(k + 1) - relaxed.force(1) for k in range(len(twist))])
     stiffening = torsional_stiffening(relaxed)
     angle = np.linspace(0, twist[-1], 60)
-    square.plot(angle, 0.5 * angle**2 * stiffening, color=GREY, label="½ θ² dk/d(approach), from torques alone")
+    square.plot(angle, 0.5 * angle**2 * stiffening, color=GREY,
+                label="½ θ² dk/d(approach), from torques alone")
     square.plot(twist, rises, "o", color=BLUE, label="relaxed states")
     titled(square, "long-time rise of N", "twist θ  (rad)", "rise of N  (N)")
     square.legend(frameon=False, fontsize=8.5)
@@ -119,7 +124,8 @@ def figure5(results):
 
 
 def torsional_stiffening(relaxed):
-    """dk/d(approach) of the torsional stiffness k = T/theta [N mm/rad per mm], from the last two phases of `torsion`."""
+    """dk/d(approach) of the torsional stiffness k = T/theta [N mm/rad per mm], from the last two phases of
+    `torsion`."""
     return (relaxed.torque(-2) - relaxed.torque(-1)) / (2 * runs.APPROACH_STEP * runs.TWISTS[2])
 
 
@@ -129,7 +135,8 @@ def figure7(results):
     history = run.history
     turning = history["rate_rad_per_s"] > 0
     for name, label, colour, style in plot.COEFFICIENTS:
-        left.plot(history["time_s"][turning] / PHASE, history[name][turning] * 1e3, style, color=colour, label=label)
+        left.plot(history["time_s"][turning] / PHASE, history[name][turning] * 1e3, style, color=colour,
+                  label=label)
     titled(left, "friction coefficient", "t / τ,  τ = 900 s", "μ  (10⁻³)")
     left.set(xlim=(4, 7))
     left.set_ylim(0, left.get_ylim()[1] * 1.08)
@@ -147,7 +154,8 @@ def figure7(results):
 
 
 def surface_fit(run):
-    """Fig. 8's bottom surface at the end of the phase at rest: r and u_z of its nodes over Rmin, and a polynomial."""
+    """Fig. 8's bottom surface at the end of the phase at rest: r and u_z of its nodes over Rmin, and a
+    polynomial."""
     surface = run.surface("bottom", 2)
     r = surface["r_mm"] / run.radius
     u = (surface["z_mm"] - surface["reference_z_mm"]) / run.radius
@@ -159,13 +167,16 @@ def figure8(results):
     run = results.shown("fig06")
     r, u, polynomial = surface_fit(run)
     fine = np.linspace(0, r[-1], 300)
-    axes.plot(fine, polynomial(fine), color=RED, linewidth=1.2, label=f"deformed surface (polynomial fit, degree {FIT_DEGREE})")
-    axes.plot(r, u, "o", color=BLUE, markersize=3.5, markerfacecolor="white", label="deformed surface (nodal values)")
+    axes.plot(fine, polynomial(fine), color=RED, linewidth=1.2,
+              label=f"deformed surface (polynomial fit, degree {FIT_DEGREE})")
+    axes.plot(r, u, "o", color=BLUE, markersize=3.5, markerfacecolor="white",
+              label="deformed surface (nodal values)")
     axes.plot((0, float(run.summary["options"]["bottom_radius"]) / run.radius), (0, 0), "--", color="#222222",
               linewidth=1.2, label="undeformed surface")
     contact = run.end(2, "contact_radius_mm") / run.radius
     axes.axvline(contact, color=GREY, linewidth=0.8, linestyle=":")
-    axes.annotate(f"contact radius {contact * run.radius:.3f} mm", (contact, 0.55), (-6, 0), ha="right", fontsize=8.5,
+    axes.annotate(f"contact radius {contact * run.radius:.3f} mm", (contact, 0.55), (-6, 0), ha="right",
+                  fontsize=8.5,
                   xycoords=("data", "axes fraction"), textcoords="offset points", color="#444444")
     for place, value in ((0, -0.031151), (contact, -0.012338)):
         axes.plot(place, value, "x", color="#222222", markersize=8, markeredgewidth=1.6, zorder=5,
@@ -182,7 +193,8 @@ def figure9(results):
     for (label, case), (colour, style) in zip(TABLE2.items(), STYLES):
         b, m = results.shown(case).law
         law = " + ".join(f"{bi:.3g}{('', ' v', ' v²')[int(mi)]}" for bi, mi in zip(b, m) if bi)
-        axes.plot(speed, 1e3 * rheometer.coefficient(b, m, speed), style, color=colour, label=f"{label}: {law}")
+        axes.plot(speed, 1e3 * rheometer.coefficient(b, m, speed), style, color=colour,
+                  label=f"{label}: {law}")
     titled(axes, "local friction laws", "sliding speed v  (mm/s)", "μ  (10⁻³)")
     axes.set(xlim=(0, 10), ylim=(0, None))
     axes.legend(frameon=False, fontsize=8.5)
@@ -195,7 +207,8 @@ def coefficients(cases, results, name):
     for (label, case), (colour, style) in zip(cases.items(), STYLES):
         history = results.shown(case).history
         turning = history["rate_rad_per_s"] > 0
-        axes.plot(history["time_s"][turning] / PHASE, 1e3 * history["mu_apparent"][turning], style, color=colour,
+        axes.plot(history["time_s"][turning] / PHASE, 1e3 * history["mu_apparent"][turning], style,
+                  color=colour,
                   label=label)
     titled(axes, "apparent friction coefficient", "t / τ,  τ = 900 s", "μ apparent  (10⁻³)")
     axes.set(xlim=(4, 7))

@@ -1,4 +1,5 @@
-"""The report's blocks as a PDF of A4 pages, set by matplotlib: text wrapped by its measured width, tables, pictures."""
+"""The report's blocks as a PDF of A4 pages, set by matplotlib: text wrapped by its measured width, tables,
+pictures."""
 import functools
 
 import matplotlib.image
@@ -66,7 +67,8 @@ class Pages:
             self.new_page()
 
     def line(self, text, x, size, bold=False, colour="#222222"):
-        self.figure.text(x / WIDTH, (self.y - size) / HEIGHT, text.replace("$", r"\$"), fontsize=size, color=colour,
+        self.figure.text(x / WIDTH, (self.y - size) / HEIGHT, text.replace("$", r"\$"), fontsize=size,
+                         color=colour,
                          fontweight="bold" if bold else "normal", va="baseline")
 
     def paragraph(self, text, size=TEXT_SIZE, bold=False, colour="#222222", indent=0.0, before=5.0, keep=0.0):
@@ -81,7 +83,8 @@ class Pages:
     def table(self, header, rows, colours=None):
         """Columns as wide as what stands in them asks for, shrunk together when the page is too narrow."""
         columns = list(zip(*[header, *rows]))
-        wanted = [min(230.0, max(sum(_word_width(w, TABLE_SIZE, True) + 0.35 * TABLE_SIZE for w in str(c).split())
+        wanted = [min(230.0, max(sum(_word_width(w, TABLE_SIZE, True) + 0.35 * TABLE_SIZE
+                                     for w in str(c).split())
                                  for c in column)) + 8 for column in columns]
         total, room = sum(wanted), WIDTH - 2 * MARGIN
         narrow = sum(w for w in wanted if w <= NARROW)  # these keep their width
@@ -96,7 +99,8 @@ class Pages:
             for column, (lines, width) in enumerate(zip(cells, widths)):
                 colour = colours[k - 1] if colours and k and column == 0 else "#222222"
                 for line in lines:
-                    self.line(line, x, TABLE_SIZE, bold=k == 0 or (bool(colours) and column == 0), colour=colour)
+                    self.line(line, x, TABLE_SIZE, bold=k == 0 or (bool(colours) and column == 0),
+                              colour=colour)
                     self.y -= LINE * TABLE_SIZE
                 self.y, x = top, x + width
             self.y = top - height
@@ -115,7 +119,8 @@ class Pages:
             width, height = width * most / height, most
         self.y -= 6
         self.room(height + len(lines) * LINE * 8)
-        axes = self.figure.add_axes(((WIDTH - width) / 2 / WIDTH, (self.y - height) / HEIGHT, width / WIDTH, height / HEIGHT))
+        axes = self.figure.add_axes(((WIDTH - width) / 2 / WIDTH, (self.y - height) / HEIGHT, width / WIDTH,
+                                     height / HEIGHT))
         axes.imshow(image, aspect="auto", interpolation="none")
         axes.axis("off")
         self.y -= height
@@ -123,7 +128,8 @@ class Pages:
 
     def block(self, block):
         if isinstance(block, document.Heading):
-            self.paragraph(block.text, SIZES[block.level], bold=True, before=14 if block.level == 2 else 9, keep=90)
+            self.paragraph(block.text, SIZES[block.level], bold=True, before=14 if block.level == 2 else 9,
+                           keep=90)
         elif isinstance(block, document.Text):
             self.paragraph(block.text)
         elif isinstance(block, document.Quote):

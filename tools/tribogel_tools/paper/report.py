@@ -16,7 +16,8 @@ DOUBTS = (
     ("(3.11), denominator", "b0 R/3", "printed b0/3; (3.13) and the dimension ask for R"),
     ("weights of Fig. 7's average", "all three shown",
      "“quadrature weights”; with the area's the statement is not true here"),
-    ("Fig. 5: size, compression, twist, duration", "10 × 4.4 mm, 0.414 mm, 0.1 rad in 27 s, to 7200 s", "not given"),
+    ("Fig. 5: size, compression, twist, duration", "10 × 4.4 mm, 0.414 mm, 0.1 rad in 27 s, to 7200 s",
+     "not given"),
     ("which gel is hyperelastic in the mixed pair", "the top one", "“either the top or bottom specimen”"),
     ("hold “over t = 3600 s” after 27 s, rotation from 3600 s", "hold to 3600 s", "both cannot be true"),
     ("which plate turns", "the top one",
@@ -36,30 +37,32 @@ def fitted_coefficients(results):
 def doubts():
     return [Heading("What cannot be replayed because the paper does not say it", "doubts"),
             Table(("open", "chosen here", "why"), list(DOUBTS)),
-            Text("src/PAPER.md in the repository says where each equation of the paper is in the program, which test "
-                 "holds it, and more on each choice.")]
+            Text("src/PAPER.md in the repository says where each equation of the paper is in the program, "
+                 "which test holds it, and more on each choice.")]
 
 
 def opening(results):
     count, cpu, steps = runs.cost_of(results.output)
     program = results.shown("fig06").summary["program"]
     return [
-        Text(f"Every number below comes from {count} runs of tribogel {program['version']} ({cpu:.0f} CPU seconds, "
-             f"{steps} steps) that the same command wrote beside this page, below runs/; each figure is drawn from "
-             "them. Units: mm, N, s, MPa, rad. A number is followed by its errors: ± (mesh) from two meshes, ± (time) "
-             "from two step tolerances; no ± (time) where it is less than a hundredth of the other."),
+        Text(f"Every number below comes from {count} runs of tribogel {program['version']} ({cpu:.0f} CPU "
+             f"seconds, {steps} steps) that the same command wrote beside this page, below runs/; each "
+             "figure is drawn from them. Units: mm, N, s, MPa, rad. A number is followed by its errors: ± "
+             "(mesh) from two meshes, ± (time) from two step tolerances; no ± (time) where it is less than "
+             "a hundredth of the other."),
         Heading("In short", "findings"),
         Findings(findings.all_of_them(results)),
-        Text("holds: what the paper says comes out. does not hold: it does not, under the reading named. sensitive: "
-             "it hangs on a choice, by as much as is said. not given: nothing to compare with."),
+        Text("holds: what the paper says comes out. does not hold: it does not, under the reading named. "
+             "sensitive: it hangs on a choice, by as much as is said. not given: nothing to compare with."),
     ]
 
 
 def write(results):
     blocks = opening(results)
     for section in (sections.figure5, sections.figure6, sections.figure7, sections.figure8, sections.figure9,
-                    sections.figures10_11, sections.figures12_13, further.fits, sensitivity.section, further.profiles, further.energy,
-                    further.errors, further.in_space, further.readings, further.four_rates):
+                    sections.figures10_11, sections.figures12_13, further.fits, sensitivity.section,
+                    further.profiles, further.energy, further.errors, further.in_space, further.readings,
+                    further.four_rates):
         blocks += section(results)
     blocks += doubts()
     write_html(TITLE, blocks, results.output / "report.html")

@@ -1,4 +1,5 @@
-"""Section 2 and eqs. (3.11), (3.13) of the paper for the tools: a planar contact of radius R [mm] under uniform pressure.
+"""Section 2 and eqs. (3.11), (3.13) of the paper for the tools: a planar contact of radius R [mm] under
+uniform pressure.
 
 include/tribogel/friction/rheometer.hpp has the same for the program, and says what the printed (3.11) lacks;
 tests/tools/test_reproduce_paper.py holds both together through the columns mu_apparent and mu_gong.
@@ -37,8 +38,8 @@ def gong(radius, torque, force):
 
 
 def fit(m, radius, rates, ratios):
-    """Section 5: coefficients of the exponents m whose T/N is nearest to the measured ones in the sum of squares. None
-    may be negative."""
+    """Section 5: coefficients of the exponents m whose T/N is nearest to the measured ones in the sum of
+    squares. None may be negative."""
     basis = np.column_stack([torque_basis(mi, radius, np.asarray(rates)) for mi in m])
     size = np.linalg.norm(basis, axis=0)
     return _non_negative(basis / size, np.asarray(ratios, float)) / size

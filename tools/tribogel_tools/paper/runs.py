@@ -1,7 +1,8 @@
 """Which runs of tribogel the report needs, and how they are started.
 
-Each transient case runs three times: on the mesh that is shown, on the mesh that it is the halved edges of, and there with
-a quarter of the step tolerance. Steady states of the scene of Fig. 6 run on more meshes; selected ones in space.
+Each transient case runs three times: on the mesh that is shown, on the mesh that it is the halved edges of,
+and there with a quarter of the step tolerance. Steady states of the scene of Fig. 6 run on more meshes;
+selected ones in space.
 """
 import concurrent.futures
 import dataclasses
@@ -11,8 +12,8 @@ from .. import program as starter
 from ..command_line import progress
 from ..program import OPTIONS, RunFailed
 
-CASES = ("fig05", "fig06", "table2_case1", "table2_case2", "table2_case3", "fig12_ve_ve", "fig12_he_ve", "fig12_he_he",
-         "fig04_four_rates", "table1_as_printed", "table1_reading_c")
+CASES = ("fig05", "fig06", "table2_case1", "table2_case2", "table2_case3", "fig12_ve_ve", "fig12_he_ve",
+         "fig12_he_he", "fig04_four_rates", "table1_as_printed", "table1_reading_c")
 APPROACH = 0.79  # mm, that of options/paper/fig06.opts
 RATES = (0.01, 0.1, 1.0)  # rad/s, the paper's
 TWISTS = (0.0, 0.05, 0.1, 0.2)  # rad: the torsion of Fig. 5's gel, at its approach
@@ -26,7 +27,8 @@ SOLID_CASES = ("fig06", "table2_case2", "fig12_ve_ve")
 
 @dataclasses.dataclass(frozen=True)
 class Detail:
-    """How fine. Transients are shown on the mesh of `elements` along the top radius with its edges halved once."""
+    """How fine. Transients are shown on the mesh of `elements` along the top radius with its edges halved
+    once."""
     elements: int = 6
     levels: int = 3  # of halvings in the study of meshes
     tolerance: float = 0.1  # per cent, -time_tolerance
@@ -78,8 +80,9 @@ def meshes(detail):
 
 def own_estimate(detail):
     """The program's own word about the errors of Fig. 6."""
-    return Run("estimate", ("paper/fig06.opts",), (*mesh_words(detail, 1), "-time_tolerance", f"{detail.tolerance:.12g}",
-                                                   "-error_estimate", "true"))
+    return Run("estimate", ("paper/fig06.opts",),
+               (*mesh_words(detail, 1), "-time_tolerance", f"{detail.tolerance:.12g}", "-error_estimate",
+                "true"))
 
 
 def frictionless(detail):
@@ -100,14 +103,15 @@ def torsion(detail):
 
 
 def in_space(detail):
-    """The steady states, order 2, uniform meshes, side walls at the plates as in the axisymmetric model; beside them that
-    model on the same radii and heights."""
+    """The steady states, order 2, uniform meshes, side walls at the plates as in the axisymmetric model;
+    beside them that model on the same radii and heights."""
     for case in SOLID_CASES:
         for elements in detail.solid_elements:
             mesh = ("-element_order", "2", "-elements_radial", str(elements), "-mesh_grading", "1")
             yield Run(f"space/{case}_{elements}", (f"paper/{case}.opts",),
                       (*steady_rates(RATES), *mesh, "-model", "solid"))
-            yield Run(f"space/{case}_{elements}_axisymmetric", (f"paper/{case}.opts",), (*steady_rates(RATES), *mesh))
+            yield Run(f"space/{case}_{elements}_axisymmetric", (f"paper/{case}.opts",),
+                      (*steady_rates(RATES), *mesh))
 
 
 def hidden_law(detail):
@@ -148,6 +152,7 @@ def execute_all(runs, program, output, jobs):
 
 def cost_of(output):
     """CPU seconds and steps of all runs."""
-    summaries = [json.loads(path.read_text(encoding="utf-8")) for path in (output / "runs").rglob("summary.json")]
+    summaries = [json.loads(path.read_text(encoding="utf-8"))
+                 for path in (output / "runs").rglob("summary.json")]
     return (len(summaries), sum(s["cost"]["cpu_s"] for s in summaries),
             sum(s["counts"]["accepted_steps"] for s in summaries))

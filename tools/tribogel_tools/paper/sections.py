@@ -45,12 +45,13 @@ def figure5(results):
     rivlin = relaxed.torque(3) * theta / float(run.summary["options"]["bottom_height"]) / 2
     return [
         Heading("Fig. 5: one gel, compressed, relaxed, twisted, relaxed", "fig05"),
-        Quote("“We note that the normal force increases when the torque is applied due to nonlinear Poisson effects.” "
-              "Time over 3600 s, N over its value at the end, T over Nref R. Size of the cylinder, compression, twist "
-              "and end are not given."),
+        Quote("“We note that the normal force increases when the torque is applied due to nonlinear Poisson "
+              "effects.” Time over 3600 s, N over its value at the end, T over Nref R. Size of the "
+              "cylinder, compression, twist and end are not given."),
         Figure(figures.figure5(results),
-               "Fig. 5 with the assumptions of options/paper/fig05.opts: radius 10 mm, height 4.4 mm, compression "
-               "0.414 mm, twist 0.1 rad in 27 s. Below: the rise of N, and that it goes as the square of the twist."),
+               "Fig. 5 with the assumptions of options/paper/fig05.opts: radius 10 mm, height 4.4 mm, "
+               "compression 0.414 mm, twist 0.1 rad in 27 s. Below: the rise of N, and that it goes as the "
+               "square of the twist."),
         Table(("quantity", "paper", "here"), [
             ("largest N over Nref, end of the compression", "not printed as a number", ratio.text()),
             ("N at the end of the twist over N before", "rises", jump.text("%")),
@@ -61,14 +62,16 @@ def figure5(results):
             ("T/Tref at the end of the twist and at the end", "", "; ".join(
                 results.number("fig05", reduced_torque(phase)).text() for phase in (3, 4))),
         ]),
-        Text("The sign: plates that keep their distance and hold a twist θ store the energy ½ k θ², and the force is "
-             "its derivative with respect to the approach d, so N rises by ½ θ² dk/dd. k = T/θ grows as the gel gets "
-             f"shorter and wider, hence N rises. The size: k at approaches {2 * runs.APPROACH_STEP:g} mm apart gives "
-             f"{from_torque.value:.4f} N for {theta:g} rad, the simulation {rise.value:.4f} N; what differs is of "
-             f"higher order in θ. From {runs.TWISTS[2]:g} to {runs.TWISTS[3]:g} rad the rise grows with the power "
-             f"{power:.2f} of the twist. So without the twist the figure can be replayed in sign, not in size. When "
-             f"the twist has just come N is {100 * (run.force(3) / run.force(2) - 1):.2f} % higher, at long times "
-             f"{100 * (run.force(4) / run.force(2) - 1):.2f} %: the Maxwell branch is twisted too, and forgets."),
+        Text("The sign: plates that keep their distance and hold a twist θ store the energy ½ k θ², and the "
+             "force is its derivative with respect to the approach d, so N rises by ½ θ² dk/dd. k = T/θ "
+             "grows as the gel gets shorter and wider, hence N rises. The size: k at approaches "
+             f"{2 * runs.APPROACH_STEP:g} mm apart gives {from_torque.value:.4f} N for {theta:g} rad, the "
+             f"simulation {rise.value:.4f} N; what differs is of higher order in θ. From {runs.TWISTS[2]:g} "
+             f"to {runs.TWISTS[3]:g} rad the rise grows with the power {power:.2f} of the twist. So without "
+             "the twist the figure can be replayed in sign, not in size. When the twist has just come N is "
+             f"{100 * (run.force(3) / run.force(2) - 1):.2f} % higher, at long times "
+             f"{100 * (run.force(4) / run.force(2) - 1):.2f} %: the Maxwell branch is twisted too, and "
+             "forgets."),
     ]
 
 
@@ -82,22 +85,22 @@ def figure6(results):
     change = results.number("fig06", lambda r: r.force(5) - r.force(2))
     return [
         Heading("Fig. 6: normal force and torque", "fig06"),
-        Quote("“The axial force is approximatively constant when rotation is applied, and the torque presents step "
-              "jumps at the variation of ω.” Law μ = 8·10⁻⁴ v; time over 900 s, N over its long-time value, T over "
-              "Nref Rmin."),
+        Quote("“The axial force is approximatively constant when rotation is applied, and the torque "
+              "presents step jumps at the variation of ω.” Law μ = 8·10⁻⁴ v; time over 900 s, N over its "
+              "long-time value, T over Nref Rmin."),
         Figure(figures.force_and_torque({"fig06.opts": "fig06"}, results, "fig06"),
                "Fig. 6. The rates 0.01 and 0.1 rad/s give a hundredth and a tenth of the last torque."),
         table_of_ends(results, {"fig06.opts": "fig06"}),
         Table(("statement", "measured"), [
             ("N constant when rotation is applied",
              f"N(1 rad/s) - N(rest) = {change.value:+.4f} N, "
-             f"{100 * change.value / results.shown('fig06').force(2):.4f} %; by the torsion of Fig. 5, not by "
-             "friction"),
-            ("T jumps with the rate", "T(0.1)/T(0.01) = "
-                                      f"{results.number('fig06', lambda r: r.torque(4) / r.torque(3)).text()}, "
-                                      "T(1)/T(0.1) = "
-                                      f"{results.number('fig06', lambda r: r.torque(5) / r.torque(4)).text()}"),
-            ("how fast: T within 1 % of its new value after", ", ".join(f"{1e3 * value.value:.1f} ms" for value in rise)),
+             f"{100 * change.value / results.shown('fig06').force(2):.4f} %; by the torsion of Fig. 5, not "
+             "by friction"),
+            ("T jumps with the rate",
+             f"T(0.1)/T(0.01) = {results.number('fig06', lambda r: r.torque(4) / r.torque(3)).text()}, "
+             f"T(1)/T(0.1) = {results.number('fig06', lambda r: r.torque(5) / r.torque(4)).text()}"),
+            ("how fast: T within 1 % of its new value after",
+             ", ".join(f"{1e3 * value.value:.1f} ms" for value in rise)),
             ("largest N over Nref", results.number("fig06", lambda r: peak(r) / r.force()).text()),
         ]),
     ]
@@ -111,34 +114,40 @@ def over(results, case, name, phase):
 def figure7(results):
     names = {"mean over the nodes (depends on the mesh)": "mu_mean", "weighted by area": "mu_area_weighted",
              "weighted by pressure, F/N": "mu_pressure_weighted"}
-    rows = [(label, *(over(results, "fig06", name, phase).text() for phase in (3, 4, 5))) for label, name in names.items()]
+    rows = [(label, *(over(results, "fig06", name, phase).text() for phase in (3, 4, 5)))
+            for label, name in names.items()]
     at_end = results.number("fig06", lambda r: r.end(5, "mu_apparent"))
     run = results.shown("fig06")
     wider = run.end(5, "contact_radius_mm") / run.radius
     uniform = run.torque_over_force() / rheometer.torque_ratio(*run.law, run.radius, run.rates()[-1])
-    by_pressure, by_area = (run.end(5, "mu_apparent") / run.end(5, f"mu_{name}_weighted") for name in ("pressure", "area"))
+    by_pressure, by_area = (run.end(5, "mu_apparent") / run.end(5, f"mu_{name}_weighted")
+                            for name in ("pressure", "area"))
     return [
         Heading("Fig. 7: apparent, mean and weighted coefficient", "fig07"),
-        Quote("“For comparison we also show the mean value and a weighted average value (using quadrature weights) of "
-              "the converged coefficient ... It can be seen that (3.11) slightly overestimates the converged weighted "
-              "values.”"),
+        Quote("“For comparison we also show the mean value and a weighted average value (using quadrature "
+              "weights) of the converged coefficient ... It can be seen that (3.11) slightly overestimates "
+              "the converged weighted values.”"),
         Figure(figures.figure7(results), "Fig. 7, and by how much (3.11) is above each of the three means."),
         Table(("(3.11) over the coefficient", "0.01 rad/s", "0.1 rad/s", "1 rad/s"), rows,
               f"mu_apparent at 1 rad/s: {at_end.text(scale=1e3)} 10⁻³."),
-        Table(("(3.11) over the coefficient at 1 rad/s", *names), other_laws(results, names.values()), "Other laws:"),
-        Text(f"The statement is true for the weight p dA, by {per_cent(by_pressure)}, and not for dA ({per_cent(by_area, 1)}), "
-             f"which “quadrature weights” alone would be. The area's mean of ω r is {wider:.3f} times that of (3.11), since "
-             f"the contact is as much wider than Rmin; and T is {uniform:.3f} of a uniform pressure's, since pressure "
-             f"gathers inside: 1/{wider:.3f} · {uniform:.3f} = {uniform / wider:.3f}. Beside the weight p dA both effects "
-             "nearly cancel. The mean over the nodes has no limit under refinement: it depends on how the mesh is "
-             "graded. Nor is the statement true for every law: where a constant b0 matters, as in case 3 of Table 2, (3.11) is "
-             "too low beside the weight p dA too, because b0 does not grow with the wider contact."),
+        Table(("(3.11) over the coefficient at 1 rad/s", *names), other_laws(results, names.values()),
+              "Other laws:"),
+        Text(f"The statement is true for the weight p dA, by {per_cent(by_pressure)}, and not for dA "
+             f"({per_cent(by_area, 1)}), which “quadrature weights” alone would be. The area's mean of ω r "
+             f"is {wider:.3f} times that of (3.11), since the contact is as much wider than Rmin; and T is "
+             f"{uniform:.3f} of a uniform pressure's, since pressure gathers inside: 1/{wider:.3f} · "
+             f"{uniform:.3f} = {uniform / wider:.3f}. Beside the weight p dA both effects nearly cancel. "
+             "The mean over the nodes has no limit under refinement: it depends on how the mesh is graded. "
+             "Nor is the statement true for every law: where a constant b0 matters, as in case 3 of Table "
+             "2, (3.11) is too low beside the weight p dA too, because b0 does not grow with the wider "
+             "contact."),
     ]
 
 
 def other_laws(results, names):
     rows = []
-    for label, case in {"case 2: 2.6e-4 + 1e-5 v²": "table2_case2", "case 3: 2.2e-4 + 3.26e-5 v": "table2_case3",
+    for label, case in {"case 2: 2.6e-4 + 1e-5 v²": "table2_case2",
+                        "case 3: 2.2e-4 + 3.26e-5 v": "table2_case3",
                         "Fig. 12: 0.0015 v + 1e-5 v²": "fig12_ve_ve"}.items():
         rows.append((label, *(over(results, case, name, 5).text() for name in names)))
     return rows
@@ -158,17 +167,18 @@ def figure8(results):
     turning = run.end(5, names[0][1]) - run.end(2, names[0][1])
     return [
         Heading("Fig. 8: the contact surface", "fig08"),
-        Quote("“The surface does not remain planar, in fact the vertical displacement of the outer nodes on the "
-              "contact patch is 0.12338 mm while the displacement of the center nodes is 0.31151 mm. The radius ... "
-              "also increases significantly, from Rmin = 10 mm to Rcontact ≈ 10.9 mm.”"),
+        Quote("“The surface does not remain planar, in fact the vertical displacement of the outer nodes on "
+              "the contact patch is 0.12338 mm while the displacement of the center nodes is 0.31151 mm. "
+              "The radius ... also increases significantly, from Rmin = 10 mm to Rcontact ≈ 10.9 mm.”"),
         Figure(figures.figure8(results),
                "Fig. 8: the bottom gel's surface at the end of the hold. Crosses: the paper's two numbers."),
         Table(("", "paper", "here", "difference"), rows),
-        Text("Heights and approach are not given; 4.0, 4.4 and 0.79 mm were chosen so that these three numbers come "
-             "out, and other heights with another approach do as well: Fig. 8 fixes the model, it does not test it. "
-             f"The degree of the paper's polynomial is not given; one of degree {figures.FIT_DEGREE} misses nodes by "
-             f"up to {misfit * 1e3:.0f} µm, at the kink where the contact ends. At 1 rad/s the centre is "
-             f"{1e6 * abs(turning):.1g} nm lower than at rest: the surface does not feel the rotation."),
+        Text("Heights and approach are not given; 4.0, 4.4 and 0.79 mm were chosen so that these three "
+             "numbers come out, and other heights with another approach do as well: Fig. 8 fixes the model, "
+             "it does not test it. The degree of the paper's polynomial is not given; one of degree "
+             f"{figures.FIT_DEGREE} misses nodes by up to {misfit * 1e3:.0f} µm, at the kink where the "
+             f"contact ends. At 1 rad/s the centre is {1e6 * abs(turning):.1g} nm lower than at rest: the "
+             "surface does not feel the rotation."),
     ]
 
 
@@ -180,8 +190,8 @@ def figure9(results):
         rows.append((label, *(f"{x:g}" for x in b), *(f"{1e3 * x:.4f}" for x in mean)))
     return [
         Heading("Table 2 and Fig. 9: the friction laws", "fig09"),
-        Quote("Table 2: b0, b1, b2 = 0, 2·10⁻⁴, 0; 2.6·10⁻⁴, 0, 1·10⁻⁵; 2.2·10⁻⁴, 3.26·10⁻⁵, 0. No units; the axis of "
-              "Fig. 9 runs from 0 to 10, which is ω Rmin in mm/s at 1 rad/s."),
+        Quote("Table 2: b0, b1, b2 = 0, 2·10⁻⁴, 0; 2.6·10⁻⁴, 0, 1·10⁻⁵; 2.2·10⁻⁴, 3.26·10⁻⁵, 0. No units; "
+              "the axis of Fig. 9 runs from 0 to 10, which is ω Rmin in mm/s at 1 rad/s."),
         Figure(figures.figure9(results), "Fig. 9."),
         Table(("law", "b0", "b1 [s/mm]", "b2 [s²/mm²]", "at 0.01", "at 0.1", "at 1 rad/s"), rows,
               "T/(N Rmin) in 10⁻³ by the planar estimate behind (3.11), no simulation:"),
@@ -191,27 +201,30 @@ def figure9(results):
 def figures10_11(results):
     cases = figures.TABLE2
     top = {label: results.number(case, reduced_torque()) for label, case in cases.items()}
-    across = [max(abs(results.shown(case).force(k) - results.shown("table2_case1").force(k)) for case in cases.values())
+    across = [max(abs(results.shown(case).force(k) - results.shown("table2_case1").force(k))
+                  for case in cases.values())
               for k in (1, 2, 3, 4, 5)]
     error = results.number("table2_case1", lambda r: r.force(5))
     first = [results.number(case, lambda r: r.torque(5) / r.torque(3)).value for case in cases.values()]
     return [
         Heading("Figs. 10 and 11: three laws", "fig10"),
-        Quote("“The variation of the axial load is not dependent upon the change in the friction coefficient, while "
-              "the torque is strongly dependent on b. Consequently, this influence is also observed in the estimate "
-              "of the apparent coefficient.” The printed axes: N/Nref to 1.4, T/Tref to 2.5·10⁻³."),
+        Quote("“The variation of the axial load is not dependent upon the change in the friction "
+              "coefficient, while the torque is strongly dependent on b. Consequently, this influence is "
+              "also observed in the estimate of the apparent coefficient.” The printed axes: N/Nref to 1.4, "
+              "T/Tref to 2.5·10⁻³."),
         Figure(figures.force_and_torque(cases, results, "fig10"),
                "Fig. 10. The three axial forces lie on one another."),
         Figure(figures.coefficients(cases, results, "fig11"), "Fig. 11."),
         table_of_ends(results, cases),
-        Text(f"N of the three cases differs by at most {max(across[2:]):.1g} N at the ends of the phases that turn, "
-             f"and by {max(across[:2]):.1g} N before, where the static friction of cases 2 and 3 holds the faces back "
-             f"from spreading; its own error is {error.error:.2g} N. T grows from 0.01 to 1 rad/s by the factors "
-             f"{first[0]:.1f}, {first[1]:.2f} and {first[2]:.2f}."),
-        Text(f"One number does not fit. The largest T/Tref is {top['case 1'].text(scale=1e3)} 10⁻³ (case 1, 1 rad/s), "
-             "and the planar estimate, which knows neither mesh nor material, gives 1.0·10⁻³. The torque axis of the "
-             "paper's Fig. 10 runs to 2.5·10⁻³. If it was scaled to what it shows, those torques are twice what Table "
-             "2 gives, whatever the gels; this can be settled only with the figure's data."),
+        Text(f"N of the three cases differs by at most {max(across[2:]):.1g} N at the ends of the phases "
+             f"that turn, and by {max(across[:2]):.1g} N before, where the static friction of cases 2 and 3 "
+             f"holds the faces back from spreading; its own error is {error.error:.2g} N. T grows from 0.01 "
+             f"to 1 rad/s by the factors {first[0]:.1f}, {first[1]:.2f} and {first[2]:.2f}."),
+        Text(f"One number does not fit. The largest T/Tref is {top['case 1'].text(scale=1e3)} 10⁻³ (case 1, "
+             "1 rad/s), and the planar estimate, which knows neither mesh nor material, gives 1.0·10⁻³. The "
+             "torque axis of the paper's Fig. 10 runs to 2.5·10⁻³. If it was scaled to what it shows, those "
+             "torques are twice what Table 2 gives, whatever the gels; this can be settled only with the "
+             "figure's data."),
     ]
 
 
@@ -228,13 +241,15 @@ def figures12_13(results):
             cells.append("-" if not math.isfinite(spread) or at_rest else f"{spread:.1e}")
         rows.append((ENDS[phase - 1], *cells))
     peaks = [(label, results.number(case, lambda r: peak(r) / r.force()).text(),
-              f"{1e3 * rise_time(results.shown(case), 5):.0f} ms", results.number(case, lambda r: r.force()).text(),
+              f"{1e3 * rise_time(results.shown(case), 5):.0f} ms",
+              results.number(case, lambda r: r.force()).text(),
               results.number(case, reduced_torque()).text(scale=1e3)) for label, case in cases.items()]
     return [
         Heading("Figs. 12 and 13: viscoelastic and hyperelastic gels", "fig12"),
-        Quote("“As expected, the steady state (long term) values of the torque, normal force and apparent coefficient "
-              "of friction are independent of the model. However, the relaxation behavior of the material itself "
-              "cannot be captured if a hyperelastic model is used.” Law 0.0015 v + 10⁻⁵ v²."),
+        Quote("“As expected, the steady state (long term) values of the torque, normal force and apparent "
+              "coefficient of friction are independent of the model. However, the relaxation behavior of "
+              "the material itself cannot be captured if a hyperelastic model is used.” Law 0.0015 v + 10⁻⁵ "
+              "v²."),
         Figure(figures.force_and_torque(cases, results, "fig12"),
                "Fig. 12. The hyperelastic gel of the mixed pair is the top one (assumed)."),
         Figure(figures.coefficients(cases, results, "fig13"), "Fig. 13."),

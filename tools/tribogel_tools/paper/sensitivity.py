@@ -1,4 +1,5 @@
-"""What each parameter of the scene of Fig. 6 does to N and T: the runs of tools/sensitivity, its table and a picture."""
+"""What each parameter of the scene of Fig. 6 does to N and T: the runs of tools/sensitivity, its table and a
+picture."""
 import pathlib
 
 import numpy as np
@@ -11,7 +12,8 @@ from . import runs
 from .document import Figure, Heading, Table, Text
 from .figures import BLUE, GREY, RED, finish, new_figure, titled
 
-SCHEDULE = ("-schedule_end_times", "27,3600,4500", "-schedule_approach", "0.79,0.79,0.79", "-schedule_rates", "0,0,1")
+SCHEDULE = ("-schedule_end_times", "27,3600,4500", "-schedule_approach", "0.79,0.79,0.79", "-schedule_rates",
+            "0,0,1")
 COLUMNS = (("N", 1, "N, 27 s"), ("N", 3, "N, 1 rad/s"), ("T", 3, "T, 1 rad/s"))
 STEP_TOLERANCE = 0.3  # of the transients' own: differences of two runs are small
 
@@ -21,10 +23,12 @@ def directory(output):
 
 
 def run(program, output, detail, jobs):
-    """About a hundred runs on the coarse mesh, two phases of rotation left out: their numbers follow from the third's."""
-    words = (*SCHEDULE, *runs.mesh_words(detail, 0), "-time_tolerance", f"{STEP_TOLERANCE * detail.tolerance:.12g}")
+    """About a hundred runs on the coarse mesh, two phases of rotation left out: their numbers follow from the
+    third's."""
+    words = (*SCHEDULE, *runs.mesh_words(detail, 0), "-time_tolerance",
+             f"{STEP_TOLERANCE * detail.tolerance:.12g}")
     study = Study(program, [OPTIONS / "paper" / "fig06.opts"], words, directory(output), jobs=jobs,
-                                only=detail.parameters, said=progress)
+                  only=detail.parameters, said=progress)
     study.run()
     study.write()
     if study.failures:
@@ -58,13 +62,16 @@ def figure(results, found):
 def section(results):
     found = read(results.output)
     rows = [(name, meaning, *(shown(*numbers.get((quantity, phase), (np.nan, 0.0)))
-                              for quantity, phase, _ in COLUMNS)) for name, (meaning, numbers) in found.items()]
+                              for quantity, phase, _ in COLUMNS))
+            for name, (meaning, numbers) in found.items()]
     return [
         Heading("What each parameter does", "sensitivity"),
-        Text("The paper hints at a “strong sensitivity”. Here the change of N and T in per cent when a parameter grows by one, "
-             "in the scene of Fig. 6: mesh of the coarse runs, central differences of 4 and 2 %."),
-        Figure(figure(results, found), "Relative sensitivities. Without a top or bottom in its name a parameter is both gels'."),
+        Text("The paper hints at a “strong sensitivity”. Here the change of N and T in per cent when a "
+             "parameter grows by one, in the scene of Fig. 6: mesh of the coarse runs, central differences "
+             "of 4 and 2 %."),
+        Figure(figure(results, found),
+               "Relative sensitivities. Without a top or bottom in its name a parameter is both gels'."),
         Table(("parameter", "", *(label for *_, label in COLUMNS)), rows,
-              "In brackets the error of the last digit. b (v^0), b (v^2): a term that adds 1 % to the coefficient at the "
-              "mean speed 2/3 ω R. (other mesh): the number of elements changes with it."),
+              "In brackets the error of the last digit. b (v^0), b (v^2): a term that adds 1 % to the "
+              "coefficient at the mean speed 2/3 ω R. (other mesh): the number of elements changes with it."),
     ]

@@ -1,9 +1,10 @@
 """Numbers of the runs with their errors of mesh and step.
 
-A number is any function of a run. It is shown as it comes from the run on the shown mesh; its mesh error is taken to be its
-difference from the same number on the mesh with edges twice as long, as if errors fell with the edge (they do so for T and
-faster for N: the table of meshes shows it), its time error 4/3 of what a quarter of the step tolerance changes there (the
-true error follows the tolerance, tests/README.md). In space there are two meshes, 2 and 3 elements.
+A number is any function of a run. It is shown as it comes from the run on the shown mesh; its mesh error is
+taken to be its difference from the same number on the mesh with edges twice as long, as if errors fell with
+the edge (they do so for T and faster for N: the table of meshes shows it), its time error 4/3 of what a
+quarter of the step tolerance changes there (the true error follows the tolerance, tests/README.md). In space
+there are two meshes, 2 and 3 elements.
 """
 import dataclasses
 import functools
@@ -128,7 +129,8 @@ class Results:
         shown, coarse = self.shown(case), self.of(f"{case}/coarse")
         short_steps = self.of(f"{case}/coarse_short_steps")
         at_coarse = function(coarse)
-        return Value(function(shown), abs(function(shown) - at_coarse), abs(at_coarse - function(short_steps)) * 4 / 3)
+        return Value(function(shown), abs(function(shown) - at_coarse),
+                     abs(at_coarse - function(short_steps)) * 4 / 3)
 
     def steady(self, group, function):
         """A function of a steady run, which has no steps: frictionless, torsion."""
@@ -137,7 +139,8 @@ class Results:
 
     def pair(self, function, first, second):
         """A function of two transient cases, such as a ratio, with both errors."""
-        at = [function(self.of(f"{first}/{v}"), self.of(f"{second}/{v}")) for v in ("shown", "coarse", "coarse_short_steps")]
+        at = [function(self.of(f"{first}/{v}"), self.of(f"{second}/{v}"))
+              for v in ("shown", "coarse", "coarse_short_steps")]
         return Value(at[0], abs(at[0] - at[1]), abs(at[1] - at[2]) * 4 / 3)
 
     def mesh_series(self, function):
@@ -156,7 +159,8 @@ def peak(run):
 
 
 def rise_time(run, phase, fraction=0.99):
-    """Seconds after a phase's start from which on T stays within 1 - fraction of its value at the phase's end."""
+    """Seconds after a phase's start from which on T stays within 1 - fraction of its value at the phase's
+    end."""
     rows = run.drawn.rows[phase - 1]
     time, torque = run.history["time_s"][rows], run.history["torque_Nmm"][rows]
     off = np.flatnonzero(np.abs(torque / torque[-1] - 1) > 1 - fraction)

@@ -1,7 +1,8 @@
 """Two cylinders in CalculiX: an input file from our own mesh, and what its output files say.
 
-Bonded plates are prescribed displacements; the turn is made of several steps, because within a step they are linear in
-time, so that each node moves along a chord. Mortar contact with hard pressure and regularised Coulomb friction."""
+Bonded plates are prescribed displacements; the turn is made of several steps, because within a step they are
+linear in time, so that each node moves along a chord. Mortar contact with hard pressure and regularised
+Coulomb friction."""
 import math
 import re
 import subprocess
@@ -9,7 +10,8 @@ import subprocess
 import numpy
 
 TURN_STEPS = 4
-STICK_SLOPE = 100  # of the friction, shear stress over slip in stick [MPa/mm]: 200 times the shear modulus over 1 mm
+# of the friction, shear stress over slip in stick [MPa/mm]: 200 times the shear modulus over 1 mm
+STICK_SLOPE = 100
 # From lexicographic nodes to CalculiX's numbering.
 CORNERS = (0, 1, 3, 2, 4, 5, 7, 6)
 TWENTY = (0, 2, 8, 6, 18, 20, 26, 24, 1, 5, 7, 3, 19, 23, 25, 21, 9, 11, 17, 15)
@@ -18,7 +20,8 @@ ELEMENTS = {"C3D8": 1, "C3D8I": 1, "C3D20": 2, "C3D20R": 2}
 
 def listed(numbers, ids):
     flat = [str(ids[n]) for n in numbers]
-    return "".join(", ".join(flat[k:k + 12]) + ("," if k + 12 < len(flat) else "") + "\n" for k in range(0, len(flat), 12))
+    return "".join(", ".join(flat[k:k + 12]) + ("," if k + 12 < len(flat) else "") + "\n"
+                   for k in range(0, len(flat), 12))
 
 
 def write_input(path, bodies, scene, element):
@@ -31,14 +34,16 @@ def write_input(path, bodies, scene, element):
         taken = numpy.unique(body.cells[:, used])
         ids.append({int(n): count + k + 1 for k, n in enumerate(taken)})
         count += len(taken)
-        lines += [f"{ids[-1][int(n)]}, " + ", ".join(f"{x:.15g}" for x in body.nodes[n]) + "\n" for n in taken]
+        lines += [f"{ids[-1][int(n)]}, " + ", ".join(f"{x:.15g}" for x in body.nodes[n]) + "\n"
+                  for n in taken]
     for name, body, own, height in (("BOTTOM", bodies[0], ids[0], 0), ("TOP", bodies[1], ids[1], 0)):
         lines.append(f"*ELEMENT, TYPE={element}, ELSET={name}\n")
         faces[name] = []
         for cell in body.cells:
             cell_count += 1
             nodes = [str(own[int(cell[k])]) for k in used]
-            lines += [f"{cell_count}, " + ", ".join(nodes[:10]) + (",\n" + ", ".join(nodes[10:]) if order == 2 else "") + "\n"]
+            lines += [f"{cell_count}, " + ", ".join(nodes[:10])
+                      + (",\n" + ", ".join(nodes[10:]) if order == 2 else "") + "\n"]
             on = numpy.abs(body.nodes[cell][:, 2] - height) < 1e-9
             if on.sum() == (order + 1) ** 2:
                 faces[name].append((cell_count, "S1" if on[0] else "S2"))
@@ -49,7 +54,8 @@ def write_input(path, bodies, scene, element):
         lines += [f"*NSET, NSET={name}\n", listed(plates[-1], own)]
     for name in ("BOTTOM", "TOP"):
         lines += [f"*SURFACE, NAME={name}FACE\n", *(f"{cell}, {face}\n" for cell, face in faces[name])]
-        lines += [f"*MATERIAL, NAME={name}\n*HYPERELASTIC, NEO HOOKE\n{scene['G'] / 2:.15g}, {2 / scene['K']:.15g}\n",
+        lines += [f"*MATERIAL, NAME={name}\n*HYPERELASTIC, NEO HOOKE\n{scene['G'] / 2:.15g}, "
+                  f"{2 / scene['K']:.15g}\n",
                   f"*SOLID SECTION, ELSET={name}, MATERIAL={name}\n"]
     lines.append("*SURFACE INTERACTION, NAME=CONTACT\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n"
                  f"*FRICTION\n{scene['mu']:.15g}, {STICK_SLOPE}\n"
@@ -57,10 +63,12 @@ def write_input(path, bodies, scene, element):
     for step in range(TURN_STEPS + 1):
         angle = scene["turn"] * step / TURN_STEPS
         first = 0.25 if step == 0 else 0.5
-        lines.append(f"*STEP, NLGEOM, INC=200\n*STATIC, SOLVER=SPOOLES\n{first}, 1., 1e-3, {first}\n*BOUNDARY\nBOTTOMPLATE, 1, 3, 0.\n")
+        lines.append(f"*STEP, NLGEOM, INC=200\n*STATIC, SOLVER=SPOOLES\n{first}, 1., 1e-3, "
+                     f"{first}\n*BOUNDARY\nBOTTOMPLATE, 1, 3, 0.\n")
         for n in plates[1]:
             x, y, _ = bodies[1].nodes[n]
-            moved = (math.cos(angle) * x - math.sin(angle) * y - x, math.sin(angle) * x + math.cos(angle) * y - y,
+            moved = (math.cos(angle) * x - math.sin(angle) * y - x,
+                     math.sin(angle) * x + math.cos(angle) * y - y,
                      -scene["approach"])
             lines += [f"{ids[1][n]}, {i + 1}, {i + 1}, {u:.15g}\n" for i, u in enumerate(moved)]
         lines.append("*NODE PRINT, NSET=TOPPLATE, FREQUENCY=1000\nRF\n*END STEP\n")
@@ -91,7 +99,8 @@ def run(directory, bodies, scene, element, timeout, environment):
     unknowns, plate = write_input(directory / "scene.inp", bodies, scene, element)
     try:
         with open(directory / "program.log", "w", encoding="utf-8") as log:
-            done = subprocess.run(["ccx", "scene"], cwd=directory, stdout=log, stderr=subprocess.STDOUT, timeout=timeout,
+            done = subprocess.run(["ccx", "scene"], cwd=directory, stdout=log, stderr=subprocess.STDOUT,
+                                  timeout=timeout,
                                   stdin=subprocess.DEVNULL, env=environment, check=False)
         failure = f"status {done.returncode}" if done.returncode else None
     except subprocess.TimeoutExpired:
@@ -99,7 +108,8 @@ def run(directory, bodies, scene, element, timeout, environment):
     iterations, said = 0, (directory / "program.log").read_text(encoding="utf-8", errors="replace")
     cvg = directory / "scene.cvg"
     if cvg.is_file():
-        iterations = sum(1 for line in cvg.read_text(encoding="utf-8").splitlines() if re.match(r"\s+\d", line))
+        iterations = sum(1 for line in cvg.read_text(encoding="utf-8").splitlines()
+                         if re.match(r"\s+\d", line))
     N = T = math.nan
     try:
         N, T = forces(directory / "scene.dat", plate, scene)

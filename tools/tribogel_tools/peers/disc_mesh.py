@@ -1,5 +1,6 @@
-"""The meshes of `-model solid -mesh_grading 1`, made again for other programs: the grid of src/mesh/cylinder.hpp on the edges
-of src/mesh/meridian.cpp, which for uniform edges are few rules. Lengths in mm."""
+"""The meshes of `-model solid -mesh_grading 1`, made again for other programs: the grid of
+src/mesh/cylinder.hpp on the edges of src/mesh/meridian.cpp, which for uniform edges are few rules. Lengths in
+mm."""
 import itertools
 import math
 
@@ -20,7 +21,8 @@ def chain(unit, *stops):
 
 
 class Body:
-    """A disc of quadrilaterals, extruded: nodes (n, 3), cells (m, 8 or 27) with their nodes in lexicographic order."""
+    """A disc of quadrilaterals, extruded: nodes (n, 3), cells (m, 8 or 27) with their nodes in lexicographic
+    order."""
 
     def __init__(self, radii, heights, order):
         self.order, outer = order, radii[-1]
@@ -73,7 +75,8 @@ def disc(radii):
         for p in range(4 * n):
             following.append(len(vertices))
             vertices.append(turned((radius / outer, radius / outer * t[p % n]), p // n))
-        quads += [(ring[p], following[p], ring[(p + 1) % (4 * n)], following[(p + 1) % (4 * n)]) for p in range(4 * n)]
+        quads += [(ring[p], following[p], ring[(p + 1) % (4 * n)], following[(p + 1) % (4 * n)])
+                  for p in range(4 * n)]
         ring = following
     return k, numpy.array(vertices), quads
 
@@ -99,8 +102,8 @@ def disc_point(x, c):
 
 
 def two_cylinders(scene, elements, order):
-    """Bottom and top body of a scene with the keys top_radius, top_height, bottom_radius, bottom_height, approach; the
-    faces that meet are at height 0."""
+    """Bottom and top body of a scene with the keys top_radius, top_height, bottom_radius, bottom_height,
+    approach; the faces that meet are at height 0."""
     rim, outer, unit = scene["top_radius"], scene["bottom_radius"], scene["top_radius"] / elements
     end = min(rim + scene["approach"], (rim + outer) / 2)
     radii = chain(unit, 0, rim, end, (end + outer) / 2, outer)

@@ -1,10 +1,11 @@
-"""Two cylinders in GetFEM: its large-sliding contact brick by ray tracing, on our own mesh. A program of its own, because
-GetFEM's time counts as a child's: it reads a scene and two meshes (numpy's npz) and prints one line of JSON.
+"""Two cylinders in GetFEM: its large-sliding contact brick by ray tracing, on our own mesh. A program of its
+own, because GetFEM's time counts as a child's: it reads a scene and two meshes (numpy's npz) and prints one
+line of JSON.
 
   /usr/bin/python3 peer_getfem.py MESHES.npz ELEMENT STEPS
 
-Q1/P0: one pressure a cell beside the displacements; Q2: displacements alone. Multipliers like the displacements on the
-slave face. A load step that does not converge is halved, up to five times."""
+Q1/P0: one pressure a cell beside the displacements; Q2: displacements alone. Multipliers like the
+displacements on the slave face. A load step that does not converge is halved, up to five times."""
 import json
 import math
 import sys
@@ -35,7 +36,8 @@ class Peer:
             md.add_fem_data(f"w{k}", self.fems[k])
         brick = md.add_integral_large_sliding_contact_brick_raytracing("r", RELEASE, "mu", "alpha", 0)
         self.rules = ims = [self.integration(mesh, 5) for mesh in self.meshes]
-        md.add_slave_contact_boundary_to_large_sliding_contact_brick(brick, ims[1], SLAVE, "u1", "contact", "w1")
+        add_slave = md.add_slave_contact_boundary_to_large_sliding_contact_brick
+        add_slave(brick, ims[1], SLAVE, "u1", "contact", "w1")
         md.add_master_contact_boundary_to_large_sliding_contact_brick(brick, ims[0], MASTER, "u0", "w0")
         self.iterations = 0
 
@@ -84,7 +86,8 @@ class Peer:
         self.model.set_variable("plate1", u.T.ravel())
 
     def advance(self, approach, angle, before, halvings=0):
-        """One load step from the state `before` = (approach, angle); halves it where Newton's method fails."""
+        """One load step from the state `before` = (approach, angle); halves it where Newton's method
+        fails."""
         md = self.model
         old = [md.variable(f"u{k}").copy() for k in (0, 1)]
         state = md.from_variables().copy()
@@ -130,7 +133,8 @@ def main():
     try:
         before = (0.0, 0.0)
         for approach, angle in [*((scene["approach"] * (k + 1) / steps, 0.0) for k in range(steps)),
-                                *((scene["approach"], scene["turn"] * (k + 1) / steps) for k in range(steps))]:
+                                *((scene["approach"], scene["turn"] * (k + 1) / steps)
+                                  for k in range(steps))]:
             peer.advance(approach, angle, before)
             before = (approach, angle)
         report["N"], report["T"] = peer.forces()

@@ -1,1 +1,2 @@
-"""Sensitivities of N and T: the parameters of a scene (`parameters`), runs and table (`study`), the command."""
+"""Sensitivities of N and T: the parameters of a scene (`parameters`), runs and table (`study`), the
+command."""

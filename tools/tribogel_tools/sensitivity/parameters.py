@@ -38,9 +38,10 @@ class Scaled:
 
 @dataclasses.dataclass(frozen=True)
 class Term:
-    """A term b v^m of the friction law whose coefficient is 0. It is moved by `step` times mu at the mean speed of the
-    contact, v = 2/3 omega R, in the fastest phase. The sensitivity is per cent of T over per cent of mu at the mean speed
-    of the phase at hand: what a term does that adds 1 % to mu there. It can be compared with that of b1, which is then 1."""
+    """A term b v^m of the friction law whose coefficient is 0. It is moved by `step` times mu at the mean
+    speed of the contact, v = 2/3 omega R, in the fastest phase. The sensitivity is per cent of T over per
+    cent of mu at the mean speed of the phase at hand: what a term does that adds 1 % to mu there. It can be
+    compared with that of b1, which is then 1."""
     name: str
     meaning: str
     exponent: float
@@ -65,10 +66,12 @@ class Term:
         return ["-friction_coefficients", text_of(coefficients), "-friction_exponents", text_of(exponents)]
 
     def weight(self, scene, rate):
-        """The change of mu at the mean speed of a phase, relative to mu there, for a step of 1. The absolute sensitivity
-        is per unit of mu at that speed."""
+        """The change of mu at the mean speed of a phase, relative to mu there, for a step of 1. The absolute
+        sensitivity is per unit of mu at that speed."""
         speed = scene.mean_speed(rate)
-        return self.coefficient(scene, 1.0) * speed**self.exponent / scene.friction(speed) if speed else math.nan
+        if not speed:
+            return math.nan
+        return self.coefficient(scene, 1.0) * speed**self.exponent / scene.friction(speed)
 
 
 class SceneOptions:
@@ -91,8 +94,10 @@ class SceneOptions:
 
     def of_bodies(self, pattern):
         """The options of that name of all bodies that have them."""
-        found = [name for name in self.options for body in self.bodies if re.fullmatch(f"{body}_{pattern}", name)
-                 and self.options[name] and not ("maxwell" in name and self.options[f"{body}_material"] == "hyperelastic")]
+        found = [name for name in self.options for body in self.bodies
+                 if re.fullmatch(f"{body}_{pattern}", name)
+                 and self.options[name]
+                 and not ("maxwell" in name and self.options[f"{body}_material"] == "hyperelastic")]
         return tuple(sorted(found, reverse=True))  # top before bottom
 
 
@@ -109,8 +114,8 @@ def materials(scene):
     found = [Scaled("G", "all shear moduli, both parts", equilibrium + branch),
              Scaled("G equilibrium", "all moduli of the equilibrium part", equilibrium)]
     if scene.both:
-        found += [Scaled(f"G {body}", f"all moduli of the {body} gel", tuple(o for o in equilibrium + branch
-                                                                            if o.startswith(body)))
+        found += [Scaled(f"G {body}", f"all moduli of the {body} gel",
+                         tuple(o for o in equilibrium + branch if o.startswith(body)))
                   for body in scene.bodies]
     terms = {len(numbers_of(scene.options[option])) for option in equilibrium}
     if len(terms) == 1 and terms != {1}:
@@ -123,7 +128,8 @@ def materials(scene):
     if branch:
         viscosities = scene.of_bodies(r"maxwell\d*_viscosities")
         found += [Scaled("G branch", "all moduli of the Maxwell branch", branch),
-                  Scaled("K branch", "bulk modulus of the branch", scene.of_bodies(r"maxwell\d*_bulk_modulus")),
+                  Scaled("K branch", "bulk modulus of the branch",
+                         scene.of_bodies(r"maxwell\d*_bulk_modulus")),
                   Scaled("eta_D", "deviatoric viscosity", viscosities, 0),
                   Scaled("eta_V", "volumetric viscosity", viscosities, 1)]
     return found
@@ -135,7 +141,8 @@ def friction_terms(scene):
              for k, (b, m) in enumerate(zip(coefficients, exponents)) if b]
     given = {m for b, m in zip(coefficients, exponents) if b}
     if scene.fastest and found:
-        found += [Term(f"b (v^{m})", f"a term with v^{m}, there is none", m) for m in (0, 1, 2) if m not in given]
+        found += [Term(f"b (v^{m})", f"a term with v^{m}, there is none", m) for m in (0, 1, 2)
+                  if m not in given]
     return found
 
 

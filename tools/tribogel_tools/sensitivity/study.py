@@ -5,10 +5,11 @@
     study.write()                    # sensitivity.csv, sensitivity.md
     study.rows, study.markdown()
 
-A parameter p is moved to p (1 + s) and p (1 - s) for two sizes of s; the relative sensitivity (dv/v)/(dp/p), in per cent per
-per cent, is the central difference over s, extrapolated from both sizes (error of order s^2), and its error is what the two
-differ by. Lengths, which move the mesh, are moved less than the others, so that no number of edges changes: where the number of
-unknowns does, both sizes are halved, twice at most. Coefficients of friction that are 0 have no relative change: see `Term`.
+A parameter p is moved to p (1 + s) and p (1 - s) for two sizes of s; the relative sensitivity (dv/v)/(dp/p),
+in per cent per per cent, is the central difference over s, extrapolated from both sizes (error of order s^2),
+and its error is what the two differ by. Lengths, which move the mesh, are moved less than the others, so that
+no number of edges changes: where the number of unknowns does, both sizes are halved, twice at most.
+Coefficients of friction that are 0 have no relative change: see `Term`.
 """
 import concurrent.futures
 import dataclasses
@@ -45,8 +46,8 @@ class Row:
 
 
 def differences(step, values, central):
-    """Derivative at 0 from values at +-step and +-step/2, or at 0, step/2 and step, and its error. `values` maps multiples of
-    the step to numbers."""
+    """Derivative at 0 from values at +-step and +-step/2, or at 0, step/2 and step, and its error. `values`
+    maps multiples of the step to numbers."""
     if central:
         coarse, fine = (values[1] - values[-1]) / (2 * step), (values[0.5] - values[-0.5]) / step
         return fine + (fine - coarse) / 3, abs(fine - coarse)
@@ -59,7 +60,8 @@ class Study:
 
     def __init__(self, program, files, further, output, step=0.04, length_step=0.004, jobs=1, only=None,
                  said=print):
-        self.program, self.words, self.output = program, [*options_files(files), *further], pathlib.Path(output)
+        self.program, self.words, self.output = program, [*options_files(files),
+                                                          *further], pathlib.Path(output)
         self.step, self.length_step, self.jobs, self.only, self.said = step, length_step, jobs, only, said
         self.rows, self.failures, self.cpu_seconds, self.runs = [], [], 0.0, 0
 
@@ -86,7 +88,8 @@ class Study:
             for number, rows in enumerate(pool.map(lambda p: self.vary(p, scene, base), parameters), 1):
                 self.rows += rows
                 if rows:
-                    said = ", ".join(f"{row.quantity} {row.sensitivity:+.4f}" for row in rows if row.phase == len(scene.phases))
+                    said = ", ".join(f"{row.quantity} {row.sensitivity:+.4f}" for row in rows
+                                     if row.phase == len(scene.phases))
                     self.said(f"{number}/{len(parameters)} {rows[0].parameter}: at the end {said}")
         for line in self.failures:
             self.said(line)
@@ -94,7 +97,8 @@ class Study:
     def moved(self, parameter, scene, change, known):
         """The summary of a run with the parameter changed; each change is run once."""
         if change not in known:
-            summary, failure = self.solve(f"{parameter.name} {100 * change:+g} %", parameter.moved(scene, change))
+            summary, failure = self.solve(f"{parameter.name} {100 * change:+g} %",
+                                          parameter.moved(scene, change))
             if not summary:
                 raise BadInput(failure)
             known[change] = summary
@@ -132,8 +136,8 @@ class Study:
             error = (error / size + NEWTON / step) / abs(weight)
             if isinstance(parameter, Term):
                 absolute = sensitivity * values[0] / scene.friction(scene.mean_speed(rate))
-        return Row(parameter.name, parameter.meaning, parameter.unit, phase + 1, at["time_s"], rate, quantity, sensitivity,
-                   error, absolute, step, step / 2, kept)
+        return Row(parameter.name, parameter.meaning, parameter.unit, phase + 1, at["time_s"], rate,
+                   quantity, sensitivity, error, absolute, step, step / 2, kept)
 
     def write(self):
         write_csv(self.output / "sensitivity.csv", [field.name for field in dataclasses.fields(Row)],
@@ -141,7 +145,8 @@ class Study:
         (self.output / "sensitivity.md").write_text(self.markdown(), encoding="utf-8")
 
     def columns(self):
-        """(quantity, first phase, last phase): neighbours that do not differ by more than their errors are one."""
+        """(quantity, first phase, last phase): neighbours that do not differ by more than their errors are
+        one."""
         table = {}
         for row in self.rows:
             table.setdefault((row.quantity, row.phase), []).append(row)
@@ -149,7 +154,8 @@ class Study:
         for (quantity, phase), rows in sorted(table.items()):
             if all(math.isnan(row.sensitivity) for row in rows):
                 continue
-            if columns and columns[-1][0] == quantity and all(map(alike, table[quantity, columns[-1][2]], rows)):
+            known = columns and columns[-1][0] == quantity
+            if known and all(map(alike, table[quantity, columns[-1][2]], rows)):
                 columns[-1][2] = phase
             else:
                 columns.append([quantity, phase, phase])
@@ -167,10 +173,13 @@ class Study:
             if not rows[0].mesh_kept:
                 notes.append(f"{name}: the number of elements changes with it.")
             if rows[0].unit != Scaled.unit:
-                notes.append(f"{name}: {rows[-1].unit}; T by {rows[-1].absolute:.4g} N mm per unit of mu there.")
-        lines = [markdown(["parameter", *heads], table), "", "Per cent per per cent, at the phases' ends; in brackets the error of the last digits, from changes of the "
-                  f"parameter by two sizes, +-{100 * self.step:g} % and half of that (lengths: {100 * self.length_step:g} %).",
-                  *notes, *self.failures, f"{self.runs} runs, {self.cpu_seconds:.0f} CPU s."]
+                notes.append(f"{name}: {rows[-1].unit}; T by {rows[-1].absolute:.4g} N mm per unit of mu "
+                             "there.")
+        lines = [markdown(["parameter", *heads], table), "",
+                 "Per cent per per cent, at the phases' ends; in brackets the error of the last digits, from "
+                 f"changes of the parameter by two sizes, +-{100 * self.step:g} % and half of that (lengths: "
+                 f"{100 * self.length_step:g} %).",
+                 *notes, *self.failures, f"{self.runs} runs, {self.cpu_seconds:.0f} CPU s."]
         return "\n".join(lines) + "\n"
 
 
