@@ -68,7 +68,7 @@ class Ended:
     directory: pathlib.Path
     status: int
     stderr: str
-    time_limit: float = None
+    time_limit: float | None = None
 
     @property
     def timed_out(self):

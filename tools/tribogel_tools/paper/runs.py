@@ -34,7 +34,7 @@ class Detail:
     tolerance: float = 0.1  # per cent, -time_tolerance
     first_step: float = 3e-5  # s, of each phase: follows the rise of T after a jump, which takes milliseconds
     solid_elements: tuple = (2, 3)  # in space, order 2; empty: no runs in space
-    parameters: tuple = None  # whose sensitivities are sought; None: of all
+    parameters: tuple | None = None  # whose sensitivities are sought; None: of all
 
 
 FULL = Detail()

@@ -18,7 +18,7 @@ class Scaled:
     name: str
     meaning: str
     options: tuple
-    entry: int = None
+    entry: int | None = None
     length: bool = False
     central, unit = True, "% per %"
 
