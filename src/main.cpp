@@ -2,6 +2,7 @@
 #include "mesh/digest.hpp"
 #include "mesh/mesh_file.hpp"
 #include "observe/checkpoint.hpp"
+#include "observe/columns.hpp"
 #include "observe/output_directory.hpp"
 #include "observe/progress.hpp"
 #include "options/help.hpp"
@@ -220,7 +221,8 @@ int run(const std::vector<std::string> &words)
   const CommandLine line = read_command_line(words);
   if (line.help == HelpRequest::version) return answer(version_text());
   if (line.help == HelpRequest::table) return answer(help_text());
-  if (line.help == HelpRequest::markdown) return answer(help_markdown());
+  if (line.help == HelpRequest::markdown) return answer(help_markdown() + columns_markdown());
+  if (line.help == HelpRequest::columns) return answer(columns_text());
   const OptionSources sources = read_sources(line);
   std::vector<std::string> for_petsc = sources.words(words[0]);
   if (line.help == HelpRequest::petsc) for_petsc.emplace_back("-help");

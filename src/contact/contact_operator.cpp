@@ -15,7 +15,7 @@ namespace tribogel
 
 struct ContactOperator::Operators {
   std::variant<CurveContact, SurfaceContact> contact;
-  PolynomialFriction<double> friction;
+  Friction friction;
   CurveParameters curve; ///< parameters of either operator
   SurfaceParameters solid;
   std::vector<bool> carries;             ///< of each slave node: it has a multiplier, used or not

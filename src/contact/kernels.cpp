@@ -11,8 +11,8 @@ template QuadPairMortars<1> quad_element_mortar(const QuadMeasure<1> &, const Qu
 template QuadPairMortars<2> quad_element_mortar(const QuadMeasure<2> &, const QuadPairs<2> &, bool);
 
 template Eigen::Matrix<double, 3, 10> condition_slope<10>(const ContactPoint<double> &, const ContactScale &,
-                                                          const PolynomialFriction<double> &, bool);
+                                                          const Friction &, bool);
 template Eigen::Matrix<double, 3, 11> condition_slope<11>(const ContactPoint<double> &, const ContactScale &,
-                                                          const PolynomialFriction<double> &, bool);
+                                                          const Friction &, bool);
 
 } // namespace tribogel

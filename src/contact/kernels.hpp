@@ -5,7 +5,7 @@
 #include "tribogel/contact/node/condition_slope.hpp"
 #include "tribogel/contact/surface/element_mortar.hpp"
 #include "tribogel/contact/surface/mortar_kernel.hpp"
-#include "tribogel/friction/polynomial.hpp"
+#include "tribogel/friction/friction.hpp"
 
 namespace tribogel
 {
@@ -20,11 +20,9 @@ extern template QuadPairMortar<2> quad_pair_mortar(const QuadMeasure<2> &, const
 extern template QuadPairMortars<1> quad_element_mortar(const QuadMeasure<1> &, const QuadPairs<1> &, bool);
 extern template QuadPairMortars<2> quad_element_mortar(const QuadMeasure<2> &, const QuadPairs<2> &, bool);
 
-extern template Eigen::Matrix<double, 3, 10> condition_slope<10>(const ContactPoint<double> &,
-                                                                 const ContactScale &,
-                                                                 const PolynomialFriction<double> &, bool);
-extern template Eigen::Matrix<double, 3, 11> condition_slope<11>(const ContactPoint<double> &,
-                                                                 const ContactScale &,
-                                                                 const PolynomialFriction<double> &, bool);
+extern template Eigen::Matrix<double, 3, 10>
+condition_slope<10>(const ContactPoint<double> &, const ContactScale &, const Friction &, bool);
+extern template Eigen::Matrix<double, 3, 11>
+condition_slope<11>(const ContactPoint<double> &, const ContactScale &, const Friction &, bool);
 
 } // namespace tribogel

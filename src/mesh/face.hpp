@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mesh/mesh.hpp"
-#include "tribogel/friction/rheometer.hpp"
+#include "tribogel/friction/torque.hpp"
 
 #include <array>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "observe/measure.hpp"
 
 #include "tribogel/contact/curve/axis_value.hpp"
-#include "tribogel/friction/rheometer.hpp"
+#include "tribogel/friction/torque.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "observe/recorder.hpp"
+#include "observe/columns.hpp"
 
 #include "support/first_process.hpp"
 
@@ -19,54 +19,10 @@ namespace
 /// Of history.csv and profile.csv.
 enum : std::size_t { history_file, profile_file };
 constexpr std::array files = {history_file, profile_file};
-constexpr std::array headers = {
-    "time_s,phase,approach_mm,rotation_rad,rate_rad_per_s,normal_force_N,torque_Nmm,contact_radius_mm,mu_"
-    "apparent,"
-    "mu_gong,mu_mean,mu_area_weighted,mu_pressure_weighted,newton_iterations,linear_iterations,step_s,"
-    "contact_force_N,"
-    "contact_torque_Nmm,force_mismatch_N,torque_mismatch_Nmm,work_of_plates_Nmm,stored_energy_Nmm,"
-    "viscous_dissipation_Nmm,frictional_dissipation_Nmm,transverse_force_x_N,transverse_force_y_N,bending_"
-    "moment_x_Nmm,"
-    "bending_moment_y_Nmm",
-    "time_s,phase,surface,reference_r_mm,reference_theta_rad,reference_z_mm,r_mm,theta_rad,z_mm,pressure_MPa,"
-    "traction_radial_MPa,traction_circumferential_MPa,sliding_velocity_mm_per_s,mu,status,part"};
 
-/// 17 significant digits: the number is read back bit for bit.
-std::string text(double x)
+std::string header(std::size_t file)
 {
-  if (std::isnan(x)) return "nan";
-  std::array<char, 40> buffer;
-  std::snprintf(buffer.data(), buffer.size(), "%.17g", x);
-  return buffer.data();
-}
-
-template <class... Cells> std::string comma_separated(const Cells &...cells)
-{
-  std::string line;
-  const auto append = [&line](const auto &cell) {
-    if (!line.empty()) line += ',';
-    if constexpr (std::is_convertible_v<decltype(cell), std::string>)
-      line += cell;
-    else if constexpr (std::is_floating_point_v<std::remove_cvref_t<decltype(cell)>>)
-      line += text(cell);
-    else
-      line += std::to_string(cell);
-  };
-  (append(cells), ...);
-  return line;
-}
-
-std::string text_of(const HistoryRow &row)
-{
-  const Measurement &m = row.measurement;
-  const EnergyBalance &e = row.energy;
-  return comma_separated(row.time, row.phase, row.approach, row.rotation, row.rate, m.normal_force, m.torque,
-                         m.contact_radius, m.mu_apparent, m.mu_gong, m.mu_mean, m.mu_area_weighted,
-                         m.mu_pressure_weighted, row.report.newton_iterations, row.report.linear_iterations,
-                         row.step, m.contact_force, m.contact_torque, m.force_mismatch(), m.torque_mismatch(),
-                         e.work, e.stored, e.viscous, e.friction, m.transverse_force[0],
-                         m.transverse_force[1], m.bending_moment[0], m.bending_moment[1]) +
-         '\n';
+  return file == history_file ? header_of(history_columns()) : header_of(profile_columns());
 }
 
 /// How far the bottom surface has gone down at the current radius r, between its nodes; a surface in space
@@ -143,7 +99,7 @@ std::string Recorder::open(bool goes_on)
   for (const std::size_t k : files) {
     GrowingFile &file = k == history_file ? history : profile;
     std::string failed = goes_on ? file.resume(paths()[k], bytes[k]) : file.create(paths()[k]);
-    if (failed.empty() && !goes_on) failed = file.append(std::string(headers[k]) + "\n");
+    if (failed.empty() && !goes_on) failed = file.append(header(k) + "\n");
     if (!failed.empty()) return failed;
   }
   return {};
@@ -166,7 +122,7 @@ std::string Recorder::objection_to_resume() const
     if (size < bytes[k]) return paths()[k] + " is shorter than at the checkpoint";
     std::string first;
     std::getline(std::ifstream(paths()[k]), first);
-    if (first != headers[k]) return paths()[k] + " has other columns than this program writes";
+    if (first != header(k)) return paths()[k] + " has other columns than this program writes";
   }
   return {};
 }
@@ -230,7 +186,7 @@ PetscErrorCode Recorder::Record(Problem &problem, const StepReport &report)
   PetscCall(AddEnergies(problem, rows.empty() ? nullptr : &rows.back().measurement, row.measurement,
                         rows.empty() ? EnergyBalance{} : rows.back().energy, row.energy));
   rows.push_back(row);
-  PetscCall(Write(problem, [&] { return history.append(text_of(row)); }));
+  PetscCall(Write(problem, [&] { return history.append(line_of(history_columns(), row)); }));
   if (report.ends_phase) {
     last_profile = std::move(surfaces);
     phases.push_back({row.phase, row.time, row.approach, row.rotation, row.rate, row.measurement,
@@ -245,12 +201,7 @@ PetscErrorCode Recorder::Record(Problem &problem, const StepReport &report)
 std::string Recorder::profile_of(const PhaseEnd &end) const
 {
   std::string text;
-  for (const ProfileRow &row : last_profile)
-    text +=
-        comma_separated(end.time, end.phase, row.surface, row.reference_r, row.reference_theta,
-                        row.reference_z, row.r, row.theta, row.z, row.pressure, row.traction_radial,
-                        row.traction_circumferential, row.sliding_velocity, row.mu, row.status, row.part) +
-        '\n';
+  for (const ProfileRow &row : last_profile) text += line_of(profile_columns(), ProfileLine{end, row});
   return text;
 }
 

@@ -1,5 +1,6 @@
 #include "observe/summary.hpp"
 
+#include "observe/columns.hpp"
 #include "support/files.hpp"
 #include "support/first_process.hpp"
 #include "support/version.hpp"
@@ -23,28 +24,30 @@ Json number(double x)
   return std::isfinite(x) ? Json(x) : Json(nullptr);
 }
 
-Json describe(const PhaseEnd &end)
+/// The columns of history.csv that are worth it, and what is known at phases' ends only.
+Json describe(const HistoryRow &row, const PhaseEnd &end)
 {
-  const Measurement &m = end.measurement;
-  return {{"phase", end.phase},
-          {"time_s", end.time},
-          {"approach_mm", end.approach},
-          {"rotation_rad", end.rotation},
-          {"rate_rad_per_s", end.rate},
-          {"normal_force_N", number(m.normal_force)},
-          {"torque_Nmm", number(m.torque)},
-          {"transverse_force_x_N", number(m.transverse_force[0])},
-          {"transverse_force_y_N", number(m.transverse_force[1])},
-          {"bending_moment_x_Nmm", number(m.bending_moment[0])},
-          {"bending_moment_y_Nmm", number(m.bending_moment[1])},
-          {"contact_radius_mm", number(m.contact_radius)},
-          {"mu_apparent", number(m.mu_apparent)},
-          {"mu_gong", number(m.mu_gong)},
-          {"mu_mean", number(m.mu_mean)},
-          {"mu_area_weighted", number(m.mu_area_weighted)},
-          {"mu_pressure_weighted", number(m.mu_pressure_weighted)},
-          {"bottom_surface_centre_displacement_mm", number(end.centre_displacement)},
-          {"bottom_surface_rim_displacement_mm", number(end.rim_displacement)}};
+  Json json;
+  for (const Column<HistoryRow> &column : history_columns()) {
+    if (!column.in_summary) continue;
+    const Cell cell = column.value(row);
+    if (const auto *count = std::get_if<long>(&cell))
+      json[column.name] = *count;
+    else
+      json[column.name] = number(std::get<double>(cell));
+  }
+  json["bottom_surface_centre_displacement_mm"] = number(end.centre_displacement);
+  json["bottom_surface_rim_displacement_mm"] = number(end.rim_displacement);
+  return json;
+}
+
+Json phase_ends(const Recorder &recorder)
+{
+  Json json = Json::array();
+  auto end = recorder.phases.begin();
+  for (const HistoryRow &row : recorder.rows)
+    if (row.report.ends_phase && end != recorder.phases.end()) json.push_back(describe(row, *end++));
+  return json;
 }
 
 /// Largest imbalance between plate and contact over the run beside the largest force and torque; the energies
@@ -123,8 +126,7 @@ Json summary_of(const Problem &problem, const Recorder &recorder, const RunOutco
   for (const auto &[name, value] : options) json["options"][name] = value;
   json["warnings"] = warnings;
   json["notices"] = recorder.notices;
-  json["phases"] = Json::array();
-  for (const PhaseEnd &end : recorder.phases) json["phases"].push_back(describe(end));
+  json["phases"] = phase_ends(recorder);
   json["balances"] = balances(recorder);
   int most_newton = 0;
   double longest = 0;

@@ -30,7 +30,8 @@ HelpRequest help_kind(const std::string &value)
   if (value.empty()) return HelpRequest::table;
   if (value == "petsc") return HelpRequest::petsc;
   if (value == "markdown") return HelpRequest::markdown;
-  throw UserError{"-help = " + value + ": allowed: nothing, petsc or markdown"};
+  if (value == "columns") return HelpRequest::columns;
+  throw UserError{"-help = " + value + ": allowed: nothing, petsc, columns or markdown"};
 }
 
 /// What somebody may have meant who wrote a word without an option.

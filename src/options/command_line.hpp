@@ -12,7 +12,7 @@
 namespace tribogel
 {
 
-enum class HelpRequest { none, table, petsc, markdown, version };
+enum class HelpRequest { none, table, petsc, markdown, columns, version };
 
 inline constexpr const char *command_line_source = "the command line", *environment_source = "PETSC_OPTIONS";
 

@@ -72,7 +72,8 @@ std::string help_text()
   }
   text += "\n" + wrapped(branch_remark, "", 112);
   text += "\nHelp\n  -help            this table\n  -help petsc      and the options of PETSc's solvers\n"
-          "  -help markdown   this table as a page\n  -version\n";
+          "  -help columns    what stands in history.csv and profile.csv\n"
+          "  -help markdown   these tables as a page\n  -version\n";
   return text;
 }
 

@@ -1,4 +1,5 @@
 // The declarations themselves; option_table.hpp says what the members mean.
+#include "options/friction_options.hpp"
 #include "options/option_table.hpp"
 
 namespace tribogel
@@ -161,55 +162,6 @@ OptionGroup material_group(const std::string &body)
                            .choices = {"logarithmic", "quadratic"}});
   for (const Option &option : branch_options(body, 1)) group.options.push_back(option);
   return group;
-}
-
-OptionGroup friction_group()
-{
-  return {"Friction of the two gels",
-          {{.name = "-friction_law",
-            .kind = OptionKind::choice,
-            .fallback = "polynomial",
-            .meaning = "none; polynomial: mu = sum_i b_i v^m_i with the sliding speed v in mm/s",
-            .source = "paper",
-            .choices = {"none", "polynomial"}},
-           {.name = "-friction_coefficients",
-            .kind = OptionKind::reals,
-            .fallback = "0,8e-4",
-            .unit = "MPa^(1-a) (mm/s)^-m_i",
-            .meaning = "b_i; a negative one (weakening) is taken with a note",
-            .source = "paper",
-            .range = any_real,
-            .rule = ">= 0 where 0 < m_i < 1"},
-           {.name = "-friction_exponents",
-            .kind = OptionKind::reals,
-            .fallback = "0,1",
-            .unit = "-",
-            .meaning = "m_i",
-            .source = "paper",
-            .range = non_negative,
-            .rule = "as many as coefficients"},
-           {.name = "-friction_pressure_exponent",
-            .kind = OptionKind::real,
-            .fallback = "1",
-            .unit = "-",
-            .meaning = "a in |traction| = mu p^a, both per current area, p in MPa",
-            .source = "paper",
-            .range = {0, 1}},
-           {.name = "-friction_speed_range",
-            .kind = OptionKind::reals,
-            .fallback = "",
-            .unit = "mm/s",
-            .meaning = "lowest and highest speed for which the law was found; sliding faster gives a notice",
-            .source = "own",
-            .range = any_real,
-            .rule = "two, increasing, the first >= 0"},
-           {.name = "-friction_pressure_floor",
-            .kind = OptionKind::real,
-            .fallback = "1e-5",
-            .unit = "MPa",
-            .meaning = "with a < 1: below it a parabola replaces p^a, whose slope at 0 is infinite",
-            .source = "own",
-            .range = positive}}};
 }
 
 OptionGroup schedule_group()
@@ -402,10 +354,13 @@ OptionGroup output_group()
 
 const std::vector<OptionGroup> &option_table()
 {
-  static const std::vector<OptionGroup> table{
-      scene_group(),    geometry_group(), material_group("top"),  material_group("bottom"),
-      friction_group(), schedule_group(), discretisation_group(), output_group(),
-  };
+  static const std::vector<OptionGroup> table = [] {
+    std::vector<OptionGroup> all{scene_group(), geometry_group(), material_group("top"),
+                                 material_group("bottom")};
+    for (OptionGroup &group : friction_groups()) all.push_back(std::move(group));
+    for (const auto &group : {schedule_group(), discretisation_group(), output_group()}) all.push_back(group);
+    return all;
+  }();
   return table;
 }
 

@@ -42,21 +42,6 @@ std::string describe(const Specimen &specimen, const std::string &name, bool fro
   return text;
 }
 
-std::string describe(const PolynomialFriction<double> &friction)
-{
-  if (friction.coefficients.empty()) return "none";
-  std::string text = "mu =";
-  for (std::size_t i = 0; i < friction.coefficients.size(); ++i) {
-    const double b = friction.coefficients[i], m = friction.exponents[i];
-    text += (i ? (b < 0 ? " - " : " + ") : (b < 0 ? " -" : " ")) + number(std::abs(b));
-    if (m != 0) text += " v" + (m == 1 ? std::string() : "^" + number(m));
-  }
-  text += " (v in mm/s)";
-  if (friction.linear_in_pressure()) return text;
-  return text + ", |traction| = mu p^" + number(friction.pressure_exponent) + " (p in MPa, above " +
-         number(friction.pressure_floor) + ")";
-}
-
 std::string describe(const Schedule &schedule, double radius)
 {
   double turned = 0, fastest = 0;
@@ -89,7 +74,7 @@ std::string describe_placing(const Scene &scene)
 
 std::string describe_friction(const Scene &scene)
 {
-  std::string text = "  friction: " + describe(scene.friction);
+  std::string text = "  friction: " + (scene.friction.law() ? scene.friction.law()->in_numbers() : "none");
   if (const auto &speeds = scene.friction_speeds)
     text += ", found for " + number((*speeds)[0]) + " to " + number((*speeds)[1]) + " mm/s";
   return text + describe_placing(scene);

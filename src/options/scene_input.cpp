@@ -1,5 +1,6 @@
 #include "options/scene_input.hpp"
 
+#include "options/friction_options.hpp"
 #include "options/material_input.hpp"
 #include "options/option_reader.hpp"
 #include "options/size_doubts.hpp"
@@ -84,59 +85,6 @@ void read_mesh_file(const OptionReader &reader, SceneInput &input)
   if (!idle.empty()) input.notes.push_back("without effect with -mesh_file: " + idle);
 }
 
-/// -friction_speed_range, if it is given.
-std::optional<std::array<double, 2>> read_speed_range(const OptionReader &reader)
-{
-  const Option &range = OptionReader::declared("-friction_speed_range");
-  if (!reader.is_given(range.name)) return {};
-  const std::vector<double> v = reader.reals(range);
-  if (v.size() != 2 || !(0 <= v[0] && v[0] < v[1]))
-    refuse(range.name, reader.text(range), "allowed: " + range.allowed());
-  return std::array<double, 2>{v[0], v[1]};
-}
-
-void read_friction(const OptionReader &reader, SceneInput &input)
-{
-  const Option &coefficients = OptionReader::declared("-friction_coefficients");
-  const Option &exponents = OptionReader::declared("-friction_exponents");
-  const bool polynomial = reader.choice("-friction_law") == "polynomial";
-  reader.expect_equal_lengths(exponents, coefficients);
-  const std::vector<double> b = reader.reals(coefficients), m = reader.reals(exponents);
-  double at_rest = 0;
-  for (std::size_t i = 0; i < m.size(); ++i) {
-    if (PolynomialFriction<double>::steep(m[i]) && b[i] < 0)
-      refuse(coefficients.name, reader.text(coefficients),
-             to_text(b[i]) + " with exponent " + to_text(m[i]) +
-                 "; allowed: >= 0 with an exponent between 0 and 1");
-    if (m[i] == 0) at_rest += b[i];
-  }
-  if (at_rest < 0)
-    refuse(coefficients.name, reader.text(coefficients),
-           "the coefficient at rest is " + to_text(at_rest) +
-               "; allowed: the terms with exponent 0 add up to >= 0");
-  const double a = reader.real("-friction_pressure_exponent"),
-               floor = reader.real("-friction_pressure_floor");
-  const auto speeds = read_speed_range(reader);
-  if (!input.scene.has_top) return;
-  if (polynomial) {
-    input.scene.friction = PolynomialFriction<double>{b, m, a, floor};
-    input.scene.friction_speeds = speeds;
-    if (a == 1 && reader.is_given("-friction_pressure_floor"))
-      input.notes.push_back("without effect with -friction_pressure_exponent 1: -friction_pressure_floor");
-    if (*std::min_element(b.begin(), b.end()) < 0)
-      input.notes.push_back(
-          "-friction_coefficients = " + reader.text(coefficients) +
-          ": friction that weakens with speed has unstable sliding states, and mu(v) may become"
-          " negative at high speed");
-    return;
-  }
-  std::string idle;
-  for (const char *name : {"-friction_coefficients", "-friction_exponents", "-friction_pressure_exponent",
-                           "-friction_pressure_floor", "-friction_speed_range"})
-    if (reader.is_given(name)) idle += (idle.empty() ? "" : ", ") + std::string(name);
-  if (!idle.empty()) input.notes.push_back("without effect with -friction_law none: " + idle);
-}
-
 /// A list with one number for each phase; a single one holds for all. `text` is the whole list.
 std::vector<double> read_per_phase(const OptionReader &reader, const Option &option, std::size_t phases,
                                    std::string &text)
@@ -213,7 +161,7 @@ void read_schedule_kind(const OptionReader &reader, SceneInput &input)
            "turn loads the gels anew");
   scene.schedule_kind = ScheduleKind::steady;
   if (!scene.has_top) return;
-  const bool holds = scene.friction.static_strength(1.0).value > 0;
+  const bool holds = scene.friction.threshold(1.0) > 0;
   for (std::size_t k = 0; k < scene.schedule.size(); ++k)
     if (holds && scene.schedule[k].rate == 0)
       refuse("-schedule_kind", "steady",
@@ -354,6 +302,7 @@ void resolve_the_rest(const OptionReader &reader, SceneInput &input)
       const bool turning =
           option.name == "-schedule_rates" || option.name == "-schedule_twists"; // one of the two
       if (turning || resolved(option.name.substr(1))) continue;
+      if (is_of_another_law(option.name, reader.choice("-friction_law"))) continue;
       const std::string text = reader.text(option);
       all.emplace_back(option.name.substr(1),
                        option.kind == OptionKind::flag && text.empty() ? "true" : text);
@@ -397,9 +346,10 @@ void take_sizes(SceneInput &input, const SpecimenSizes &sizes)
 
 SceneInput scene_from_options(const GivenOptions &given)
 {
-  const OptionReader reader(given);
+  const GivenOptions with_table = with_friction_table(given);
+  const OptionReader reader(with_table);
   SceneInput input;
-  input.given = given;
+  input.given = with_table;
   Scene &scene = input.scene;
   reader.choice("-task");
   scene.has_top = reader.choice("-specimens") == "both";

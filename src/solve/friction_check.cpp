@@ -41,7 +41,7 @@ FrictionCheck look(const Scene &scene, const ContactResults &results)
       if (!node.carries || node.status != ContactStatus::slip || !(node.pressure > 0)) continue;
       const double v = node.velocity.norm(), mu = scene.friction.coefficient(v, node.pressure);
       found.fastest = std::max(found.fastest, v);
-      found.growth = std::max(found.growth, -scene.friction.sliding(v, node.pressure).d_v / stiffness);
+      found.growth = std::max(found.growth, -scene.friction.slope(v, node.pressure) / stiffness);
       if (mu < found.lowest) {
         found.lowest = mu;
         found.at_speed = v;
@@ -67,6 +67,14 @@ std::string about_speed(const FrictionCheck &found, double time, double highest)
   std::ostringstream text;
   text << "t = " << time << " s: the gels slide at up to " << found.fastest
        << " mm/s, faster than -friction_speed_range, which ends at " << highest << " mm/s";
+  return text.str();
+}
+
+std::string about_end_of_law(const FrictionLaw &law, const FrictionCheck &found, double time)
+{
+  std::ostringstream text;
+  text << "t = " << time << " s: the gels slide at up to " << found.fastest << " mm/s; the law "
+       << law.declaration().name << " ends at " << law.highest_speed() << " mm/s";
   return text.str();
 }
 
@@ -111,9 +119,10 @@ PetscErrorCode Problem::CheckFriction()
   const PetscScalar *u, *rate;
   ContactResults results;
   PetscFunctionBeginUser;
-  const bool falls = std::any_of(scene.friction.coefficients.begin(), scene.friction.coefficients.end(),
-                                 [](double b) { return b < 0; });
-  if (!contact || !contact->between_gels() || (!falls && !scene.friction_speeds)) PetscFunctionReturn(0);
+  const FrictionLaw *law = scene.friction.law();
+  const double highest = law ? law->highest_speed() : 0;
+  const bool asks = law && (law->may_fall() || std::isfinite(highest) || scene.friction_speeds);
+  if (!contact || !contact->between_gels() || !asks) PetscFunctionReturn(0);
   PetscCall(DMGetLocalVector(mesh.dm, &U));
   PetscCall(DMGetLocalVector(mesh.dm, &Udot));
   PetscCall(LocalState(U, Udot));
@@ -127,7 +136,8 @@ PetscErrorCode Problem::CheckFriction()
 
   const FrictionCheck found = look(scene, results);
   const bool turned = state.time == phase().end_time && phase().rate != scene.bottom_plate_rate;
-  if (found.lowest < 0) stop_reason = about_negative_friction(found, state.time);
+  if (found.lowest < 0) stop_for(about_negative_friction(found, state.time));
+  if (found.fastest > highest) stop_for(about_end_of_law(*law, found, state.time));
   if (scene.friction_speeds && found.fastest > (*scene.friction_speeds)[1] && !told.beyond_speeds) {
     told.beyond_speeds = true;
     PetscCall(Notify(about_speed(found, state.time, (*scene.friction_speeds)[1])));

@@ -5,6 +5,7 @@
 #include "observe/checkpoint.hpp"
 #include "probe.hpp"
 #include "support/user_error.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 #include <filesystem>
 
@@ -22,7 +23,7 @@ Scene scene_of(int order, bool both)
 {
   Scene scene = paper_scene(5, order);
   scene.has_top = both;
-  scene.friction = {{0.05, 8e-3}, {0, 1}};
+  scene.friction = PolynomialFriction<double>{{0.05, 8e-3}, {0, 1}};
   if (both) scene.bottom.material = hyperelastic_gel(); // cells with and without history
   scene.schedule = schedule_from_rates({2, 5, 9}, {0.3, 0.47, 0.53}, {0, 0.013, 0.27});
   return scene;

@@ -2,6 +2,7 @@
 /// for the Krylov method as there.
 #include "scenes.hpp"
 #include "solver_options.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 namespace tribogel::test
 {
@@ -40,7 +41,7 @@ TEST(contact_pc_ranks, GivesTheNumbersOfADirectSolver)
   scene.model = Model::solid;
   scene.mesh.grading = 1;
   scene.top.material = scene.bottom.material = hyperelastic_gel();
-  scene.friction = {{0.02, 8e-3}, {0, 1}};
+  scene.friction = PolynomialFriction<double>{{0.02, 8e-3}, {0, 1}};
   scene.schedule = schedule_from_rates({3}, {0.4}, {0.2});
   scene.schedule_kind = ScheduleKind::steady;
   const Outcome exact = outcome(PETSC_COMM_SELF, scene, {});

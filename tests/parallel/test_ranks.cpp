@@ -4,6 +4,7 @@
 /// 1e-10 max N R at every step.
 #include "hertz.hpp"
 #include "probe.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 namespace tribogel::test
 {
@@ -14,7 +15,7 @@ namespace
 Scene scene_of(int order, double mu_0)
 {
   Scene scene = paper_scene(6, order);
-  scene.friction = {{mu_0, 8e-3}, {0, 1}};
+  scene.friction = PolynomialFriction<double>{{mu_0, 8e-3}, {0, 1}};
   scene.initial_gap = 0.05;
   scene.schedule = schedule_from_rates({3, 5, 9}, {0.47, 0.47, 0.53}, {0, 0.013, 0.27});
   return scene;

@@ -2,6 +2,7 @@
 /// another order of summation; the surfaces of two gels are the same list on every rank.
 #include "gmsh_writer.hpp"
 #include "solids.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 namespace tribogel::test
 {
@@ -67,7 +68,7 @@ TEST(solid_ranks, GiveTheNumbersOfOneInContact)
   const SolverOptions options(newton_tolerance(1e-12));
   Scene scene = paper_scene(3, 1);
   scene.model = Model::solid;
-  scene.friction = {{0.02, 8e-3}, {0, 1}};
+  scene.friction = PolynomialFriction<double>{{0.02, 8e-3}, {0, 1}};
   scene.schedule = schedule_from_rates({3, 5}, {0.4, 0.4}, {0.1, 0.3});
   scene.schedule_kind = ScheduleKind::steady;
   Problem shared, single;

@@ -165,7 +165,7 @@ TEST(ContactCondition, SlipLimitIsContinuous)
 {
   // |s| = b exactly, and from both sides
   const Vector3<double> down(0, 0, -1);
-  const double p = 1.7, b = coulomb.static_strength(p).value;
+  const double p = 1.7, b = coulomb.threshold(p);
   for (double factor : {1 - 1e-9, 1.0, 1 + 1e-9}) {
     const Vector10 x = pack({0, factor * b, p}, 0, Vector3<double>::Zero(), down);
     const auto C = contact_condition<double>(unpack<double>(x), scale, coulomb);

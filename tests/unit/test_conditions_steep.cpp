@@ -135,8 +135,8 @@ TEST(SteepCondition, IsContinuouslyDifferentiableAtRest)
   for (const auto &exponents : exponent_lists)
     for (const double a : pressure_exponents) {
       const Law law = law_of(exponents, a, 1.1, 1.7, 0.31);
-      const double b = law.static_strength(1.7 / 1.37).value * 1.37;
-      const Vector3<double> limit = a == 1 ? tangential(0, law.static_strength(1.7).value) : tangential(0, b);
+      const double b = law.threshold(1.7 / 1.37) * 1.37;
+      const Vector3<double> limit = a == 1 ? tangential(0, law.threshold(1.7)) : tangential(0, b);
       const auto at_rest = jacobian(pack(-1.7 * normal + limit, 0, Vector3<double>::Zero(), 1.37), law);
       EXPECT_TRUE(at_rest.allFinite());
       EXPECT_EQ((at_rest.leftCols<7>().fullPivLu().rank()), 3);

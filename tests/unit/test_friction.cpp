@@ -1,8 +1,8 @@
 /// Friction laws and the rheometer's closed forms.
 #include "tribogel/element/quadrature.hpp"
-#include "tribogel/friction/law.hpp"
+#include "tribogel/friction/friction.hpp"
 #include "tribogel/friction/polynomial.hpp"
-#include "tribogel/friction/rheometer.hpp"
+#include "tribogel/friction/torque.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,10 +15,11 @@ namespace tribogel
 namespace
 {
 
-static_assert(FrictionLaw<PolynomialFriction<double>, double>);
-static_assert(FrictionLaw<PolynomialFriction<double>, Dual<2>>);
-static_assert(FrictionLaw<PolynomialFriction<Dual<2>>, Dual<2>>);
-static_assert(FrictionLaw<PolynomialFriction<double>, Dual<11>>);
+static_assert(FrictionFor<PolynomialFriction<double>, double>);
+static_assert(FrictionFor<PolynomialFriction<double>, Dual<2>>);
+static_assert(FrictionFor<PolynomialFriction<Dual<2>>, Dual<2>>);
+static_assert(FrictionFor<PolynomialFriction<double>, Dual<11>>);
+static_assert(FrictionFor<Friction, double> && FrictionFor<Friction, Dual<11>>);
 
 const PolynomialFriction<double> mixed{{0.31, 0.047, -0.0021, 0.013}, {0, 1, 2.5, 1.3}};
 
@@ -31,41 +32,38 @@ TEST(PolynomialFriction, StaticAndSlidingPartAddUpToTheLaw)
 {
   for (double v : {1e-9, 0.02, 0.7, 3.1})
     for (double p : {0.004, 0.6, 17.0}) {
-      const double tau = mixed.static_strength(p).value + mixed.sliding(v, p).over_v * v;
+      const double tau = mixed.threshold(p) + mixed.drag(v, p) * v;
       EXPECT_NEAR(tau, mu(v) * p, 4e-16 * p);
       EXPECT_NEAR(mixed.coefficient(v, p), mu(v), 4e-16);
     }
 }
 
-TEST(PolynomialFriction, DerivativesAgreeWithDualNumbersAndDifferences)
+TEST(PolynomialFriction, DerivativesAgreeWithDifferences)
 {
   const double v = 0.83, p = 1.9, h = 1e-5;
-  const auto sliding = mixed.sliding(v, p);
-  const auto dual_v = Dual<2>::seed(v, 0), dual_p = Dual<2>::seed(p, 1);
-  const Dual<2> tau_1 = mixed.sliding(dual_v, dual_p).over_v * dual_v;
-  EXPECT_NEAR(sliding.d_v, tau_1.d[0], 1e-15);
-  EXPECT_NEAR(sliding.d_p, tau_1.d[1], 1e-15);
-  EXPECT_NEAR(sliding.d_v, p * (mu(v + h) - mu(v - h)) / (2 * h), 1e-10);
-  EXPECT_NEAR(mixed.static_strength(dual_p).value.d[1], mixed.static_strength(p).d_p, 1e-16);
+  const Friction law = mixed;
+  EXPECT_NEAR(law.slope(v, p), p * (mu(v + h) - mu(v - h)) / (2 * h), 1e-10);
+  const Dual<2> tau_1 = law.drag(Dual<2>::seed(v, 0), Dual<2>::seed(p, 1)) * Dual<2>::seed(v, 0);
+  EXPECT_NEAR(tau_1.d[0], p * (mu(v + h) - mu(v - h)) / (2 * h), 1e-10);
+  EXPECT_NEAR(tau_1.d[1], mu(v) - mu(0), 1e-15);
+  EXPECT_NEAR(law.threshold(Dual<2>::seed(p, 1)).d[1], 0.31, 1e-15);
 }
 
 TEST(PolynomialFriction, IsFiniteAtRest)
 {
   const double p = 1.9;
-  const auto rest = mixed.sliding(0.0, p);
-  EXPECT_DOUBLE_EQ(rest.over_v, 0.047 * p);
-  EXPECT_DOUBLE_EQ(rest.d_v, 0.047 * p);
-  EXPECT_EQ(rest.d_p, 0);
+  EXPECT_DOUBLE_EQ(mixed.drag(0.0, p), 0.047 * p);
+  EXPECT_DOUBLE_EQ(Friction(mixed).slope(0, p), 0.047 * p);
   EXPECT_DOUBLE_EQ(mixed.coefficient(0.0, p), 0.31);
-  const auto dual = mixed.sliding(Dual<2>::seed(0, 0), Dual<2>::seed(p, 1));
-  EXPECT_TRUE(isfinite(dual.over_v)) << dual.over_v; // 0.3 v^(-0.7) must not come through
+  const auto dual = mixed.drag(Dual<2>::seed(0, 0), Dual<2>::seed(p, 1));
+  EXPECT_TRUE(isfinite(dual)) << dual; // 0.3 v^(-0.7) must not come through
 }
 
 TEST(PolynomialFriction, WithoutTermsIsFrictionless)
 {
   const PolynomialFriction<double> none{};
-  EXPECT_EQ(none.static_strength(2.7).value, 0);
-  EXPECT_EQ(none.sliding(1.3, 2.7).over_v, 0);
+  EXPECT_EQ(none.threshold(2.7), 0);
+  EXPECT_EQ(none.drag(1.3, 2.7), 0);
   EXPECT_EQ(none.coefficient(1.3, 2.7), 0);
 }
 
@@ -75,7 +73,7 @@ TEST(PolynomialFriction, GivesDerivativesWithRespectToItsCoefficients)
   law.coefficients[0].d[0] = 1;
   law.coefficients[2].d[1] = 1;
   const double v = 0.83, p = 1.9;
-  const Dual<2> tau = law.static_strength(p).value + law.sliding(v, p).over_v * v;
+  const Dual<2> tau = law.threshold(p) + law.drag(v, p) * v;
   EXPECT_NEAR(tau.d[0], p, 1e-15);
   EXPECT_NEAR(tau.d[1], p * std::pow(v, 2.5), 1e-15);
 }
@@ -107,7 +105,7 @@ TEST(PolynomialFriction, ThreePartsAddUpToTheLawOverDecades)
   for (const double a : pressure_exponents) {
     const auto law = every_kind(a);
     over_decades([&](double v, double p) {
-      const double tau = law.static_strength(p).value + law.steep_stress(v, p) + law.sliding(v, p).over_v * v;
+      const double tau = law.threshold(p) + law.steep(v, p) + law.drag(v, p) * v;
       EXPECT_NEAR(tau / (mu_of_every_kind(v) * law.load(p)), 1, 8 * eps);
       EXPECT_NEAR(law.coefficient(v, p) * p / tau, 1, 8 * eps);
       if (p >= law.pressure_floor) {
@@ -120,11 +118,11 @@ TEST(PolynomialFriction, ThreePartsAddUpToTheLawOverDecades)
 TEST(PolynomialFriction, WithoutAnExponentBelowOneNothingIsSteep)
 {
   EXPECT_FALSE(mixed.has_steep_part());
-  EXPECT_EQ(mixed.steep_stress(0.7, 1.3), 0);
+  EXPECT_EQ(mixed.steep(0.7, 1.3), 0);
   EXPECT_FALSE(
       (PolynomialFriction<double>{{0.1, 0, 0.2}, {0, 0.5, 1}}).has_steep_part()); // its coefficient is 0
   EXPECT_TRUE(every_kind(1).has_steep_part());
-  EXPECT_LT(every_kind(1).sliding(0.7, 1.3).over_v, 0); // what weakens stays in the smooth part
+  EXPECT_LT(every_kind(1).drag(0.7, 1.3), 0); // what weakens stays in the smooth part
 }
 
 TEST(PolynomialFriction, SteepSpeedIsTheInverseOverDecades)
@@ -139,7 +137,7 @@ TEST(PolynomialFriction, SteepSpeedIsTheInverseOverDecades)
       for (const double drag : {1e-9, 0.013, 4.1e6}) {
         law.pressure_exponent = a;
         over_decades([&](double v, double p) {
-          const double stress = law.steep_stress(v, p) + drag * v;
+          const double stress = law.steep(v, p) + drag * v;
           // v ~ stress^(1/m) at the steepest: the round-off of the stress comes back ten times
           EXPECT_NEAR(law.steep_speed(stress, drag, p) / v, 1, 64 * eps) << v << ' ' << p;
         });
@@ -295,15 +293,23 @@ TEST(Rheometer, ViscousForceAndTorqueAreTheIntegralsOfEquations21And22)
   EXPECT_NEAR(gong_coefficient(torque, 4.7, R) / (force / 4.7), 1, 1e-8);
 }
 
-TEST(Rheometer, MeanAndTorqueOfALawAreTheIntegralsUnderUniformPressure)
+/// The area mean of mu and that of r mu, by which the apparent coefficient of a law is taken, over a disc:
+/// sums of 2 b omega^m R^m / (m + 2) and 2 b omega^m R^(m + 1) / (m + 3), eq. (3.13), also where a slope is
+/// infinite.
+TEST(Rheometer, ApparentCoefficientOfALawIsEquation313)
 {
-  const double R = 9.3, omega = 0.21, N = 4.7, area = std::numbers::pi * R * R;
-  const auto [force, torque] = force_and_torque(R, [&](double r) { return mu(omega * r) * N / area; });
-  EXPECT_NEAR(mean_coefficient(mixed, R, omega) / (force / N), 1, 1e-8);
-  EXPECT_NEAR(torque_over_force(mixed, R, omega) / (torque / N), 1, 1e-8);
-  auto law = mixed.cast<Dual<1>>();
-  law.coefficients[2].d[0] = 1;
-  EXPECT_NEAR(torque_over_force(law, R, -omega).d[0] / (2 * R * std::pow(omega * R, 2.5) / 5.5), 1, 1e-15);
+  const double R = 9.3, N = 4.7, T = 3.3;
+  for (const PolynomialFriction<double> &law :
+       {mixed, PolynomialFriction<double>{{0.2, 0.3}, {0.1, 0.5}}, PolynomialFriction<double>{{0.7}, {0}}})
+    for (const double omega : {1e-6, 0.21, 30.0}) {
+      double numerator = 0, denominator = 0;
+      for (std::size_t i = 0; i < law.exponents.size(); ++i) {
+        const double b = law.coefficients[i], m = law.exponents[i], rim = std::pow(omega * R, m);
+        numerator += 2 * b * rim / (m + 2);
+        denominator += 2 * b * rim * R / (m + 3);
+      }
+      EXPECT_NEAR(apparent_coefficient(law, T, N, R, omega) / (numerator / denominator * T / N), 1, 1e-11);
+    }
 }
 
 TEST(Rheometer, ApparentCoefficientIsEquation311WithItsFactorRestored)
@@ -311,7 +317,8 @@ TEST(Rheometer, ApparentCoefficientIsEquation311WithItsFactorRestored)
   const double b0 = 0.31, b1 = 0.047, b2 = 0.0021, R = 9.3, N = 4.7, w = 0.21, T = 3.3;
   const double corrected = (b0 / 2 + b1 * R * w / 3 + b2 * R * R * w * w / 4) /
                            (b0 * R / 3 + b1 * R * R * w / 4 + b2 * R * R * R * w * w / 5) * T / N;
-  EXPECT_NEAR(apparent_coefficient({{b0, b1, b2}, {0, 1, 2}}, T, N, R, w), corrected, 1e-15);
+  EXPECT_NEAR(apparent_coefficient(PolynomialFriction<double>{{b0, b1, b2}, {0, 1, 2}}, T, N, R, w),
+              corrected, 1e-15);
 }
 
 TEST(Rheometer, PaperTable2TorquesGiveBackTheirMeanCoefficients)
@@ -378,8 +385,11 @@ TEST(Rheometer, CoefficientsOfARing)
   }
   EXPECT_NEAR(apparent_coefficient(law, torque, N, ring(A, R), omega), area_mean, 1e-15);
   const double constant = 0.1 * N * ring_mean(A, R, 1);
-  EXPECT_NEAR(apparent_coefficient({{0.1}, {0}}, constant, N, ring(A, R), omega), 0.1, 1e-16);
-  EXPECT_NEAR(apparent_coefficient({{0.1}, {0}}, constant, N, std::sqrt(R * R - A * A), omega), 0.153, 5e-4);
+  EXPECT_NEAR(apparent_coefficient(PolynomialFriction<double>{{0.1}, {0}}, constant, N, ring(A, R), omega),
+              0.1, 1e-16);
+  EXPECT_NEAR(apparent_coefficient(PolynomialFriction<double>{{0.1}, {0}}, constant, N,
+                                   std::sqrt(R * R - A * A), omega),
+              0.153, 5e-4);
   // tractions c omega r: their sum and torque by (2.1) and (2.2) of the two discs
   const double c = 0.037, force = viscous_friction_force(c, omega, R) - viscous_friction_force(c, omega, A);
   const double moment = viscous_torque(c, omega, R) - viscous_torque(c, omega, A);
@@ -395,8 +405,8 @@ TEST(Rheometer, UndefinedValuesAreNaN)
   EXPECT_TRUE(
       std::isnan(apparent_coefficient(viscous, 0, 2.1, 9.3, 0))); // at rest a viscous law says nothing
   EXPECT_TRUE(std::isnan(apparent_coefficient({}, 1.3, 2.1, 9.3, 0.7)));
-  EXPECT_TRUE(
-      std::isnan(apparent_coefficient({{0.2}, {1}, 0.7}, 1.3, 2.1, 9.3, 0.7))); // (3.13) needs tau = mu p
+  EXPECT_TRUE(std::isnan(apparent_coefficient(PolynomialFriction<double>{{0.2}, {1}, 0.7}, 1.3, 2.1, 9.3,
+                                              0.7))); // (3.13) needs tau = mu p
   EXPECT_NEAR(apparent_coefficient(coulomb, 1.3, 2.1, 9.3, 0), 1.5 * 1.3 / (2.1 * 9.3), 1e-16);
 }
 

@@ -1,6 +1,7 @@
 // Contact in space where facets are narrow beside their length: points many widths away are projected, and
 // the surface's edge goes on beyond a narrow facet as far as beyond a wide one.
 #include "solid_scene.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 #include <gtest/gtest.h>
 

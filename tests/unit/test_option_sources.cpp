@@ -127,10 +127,11 @@ TEST(CommandLine, takes_out_help_and_version)
   EXPECT_EQ(read_command_line({"tribogel", "-top_radius", "3", "-h"}).help, HelpRequest::table);
   EXPECT_EQ(read_command_line({"tribogel", "-help", "petsc"}).help, HelpRequest::petsc);
   EXPECT_EQ(read_command_line({"tribogel", "-help", "markdown"}).help, HelpRequest::markdown);
+  EXPECT_EQ(read_command_line({"tribogel", "-help", "columns"}).help, HelpRequest::columns);
   const CommandLine line = read_command_line({"tribogel", "-version", "-overwrite"});
   EXPECT_EQ(line.help, HelpRequest::version);
   EXPECT_EQ(listed(line.options), "-overwrite= ");
-  EXPECT_TRUE(contains(refusal([] { read_command_line({"tribogel", "-help", "me"}); }), "petsc or markdown"));
+  EXPECT_TRUE(contains(refusal([] { read_command_line({"tribogel", "-help", "me"}); }), "petsc, columns or markdown"));
 }
 
 TEST(CommandLine, judges_PETSC_OPTIONS)

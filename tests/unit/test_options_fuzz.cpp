@@ -100,8 +100,11 @@ void expect_sense(const Scene &scene)
       EXPECT_GT(branch.volumetric_viscosity, 0);
     }
   }
-  EXPECT_EQ(scene.friction.coefficients.size(), scene.friction.exponents.size());
-  for (double m : scene.friction.exponents) EXPECT_TRUE(m >= 0 && std::isfinite(m));
+  if (const FrictionLaw *law = scene.friction.law()) {
+    for (const auto &list : law->values())
+      for (const double x : list) EXPECT_TRUE(std::isfinite(x));
+    EXPECT_GE(law->threshold(0.1).value, 0);
+  }
   ASSERT_FALSE(scene.schedule.empty());
   for (const Phase &phase : scene.schedule) {
     EXPECT_GT(phase.duration(), 0);

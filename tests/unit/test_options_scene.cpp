@@ -77,8 +77,7 @@ TEST(OptionsScene, defaults_are_the_paper_scene)
     EXPECT_EQ(material.branches[0].deviatoric_viscosity, 4.5);
     EXPECT_EQ(material.branches[0].volumetric_viscosity, 200);
   }
-  EXPECT_EQ(scene.friction.coefficients, (std::vector<double>{0, 8e-4}));
-  EXPECT_EQ(scene.friction.exponents, (std::vector<double>{0, 1}));
+  EXPECT_EQ(scene.friction.law()->values(), (LawValues{{0, 8e-4}, {0, 1}, {1}, {1e-5}}));
   ASSERT_EQ(scene.schedule.size(), 5u);
   EXPECT_EQ(scene.schedule[0].end_time, 27);
   EXPECT_EQ(scene.schedule[4].end_time, 6300);
@@ -158,10 +157,7 @@ TEST(OptionsScene, each_option_reaches_its_place)
   EXPECT_EQ(scene.bottom.material.branches[0].spring.bulk_modulus, 90);
   EXPECT_EQ(scene.bottom.material.branches[0].deviatoric_viscosity, 6);
   EXPECT_EQ(scene.bottom.material.branches[0].volumetric_viscosity, 80);
-  EXPECT_EQ(scene.friction.coefficients, (std::vector<double>{0.3, 0.02, 0.004}));
-  EXPECT_EQ(scene.friction.exponents, (std::vector<double>{0, 0.5, 1.5}));
-  EXPECT_EQ(scene.friction.pressure_exponent, 0.7);
-  EXPECT_EQ(scene.friction.pressure_floor, 3e-4);
+  EXPECT_EQ(scene.friction.law()->values(), (LawValues{{0.3, 0.02, 0.004}, {0, 0.5, 1.5}, {0.7}, {3e-4}}));
   ASSERT_EQ(scene.schedule.size(), 2u);
   EXPECT_EQ(scene.schedule[1].start_time, 5);
   EXPECT_EQ(scene.schedule[1].end_approach, 0.6);
@@ -438,7 +434,7 @@ TEST(OptionsScene, hyperelastic_and_frictionless_scenes_carry_nothing)
       scene_from_options({{"-top_material", "hyperelastic"}, {"-friction_law", "none"}}).scene;
   EXPECT_TRUE(scene.top.material.branches.empty());
   EXPECT_EQ(scene.bottom.material.branches.size(), 1u);
-  EXPECT_TRUE(scene.friction.coefficients.empty());
+  EXPECT_EQ(scene.friction.law(), nullptr);
 }
 
 TEST(OptionsScene, report_says_what_is_solved)

@@ -1,5 +1,6 @@
 // A side wall that rolls onto the master in space: the crease, the facets that may touch.
 #include "solid_scene.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // The contact operator in space: mortar integrals, balance, frames, Jacobian.
 #include "solid_scene.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "outlines.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 #include <numbers>
 

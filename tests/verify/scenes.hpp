@@ -2,6 +2,7 @@
 #pragma once
 
 #include "observe/recorder.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,7 @@ inline Scene paper_scene(int elements_radial, int order = 2)
   Scene scene;
   scene.top = {10, 4.4, viscoelastic_gel()};
   scene.bottom = {12.5, 4, viscoelastic_gel()};
-  scene.friction = {{0, 8e-4}, {0, 1}};
+  scene.friction = PolynomialFriction<double>{{0, 8e-4}, {0, 1}};
   scene.schedule =
       schedule_from_rates({27, 3600, 4500, 5400, 6300}, {0.79, 0.79, 0.79, 0.79, 0.79}, {0, 0, 0.01, 0.1, 1});
   scene.mesh.element_order = order;

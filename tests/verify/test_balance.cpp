@@ -3,6 +3,7 @@
 /// residuals that Newton's method leaves in the gels, so they follow the solver's tolerance and nothing else.
 #include "scenes.hpp"
 #include "solver_options.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 #include <algorithm>
 #include <array>
@@ -119,7 +120,7 @@ TEST(balance, ViscousFrictionAfterAnInitialGap)
 TEST(balance, CoulombFriction)
 {
   Scene scene = shortened(4);
-  scene.friction = {{2.6e-4, 1e-5}, {0, 2}};
+  scene.friction = PolynomialFriction<double>{{2.6e-4, 1e-5}, {0, 2}};
   expect_balance(scene);
 }
 

@@ -3,6 +3,7 @@
 /// compression; the numbers come from its scalar equations (uniform_compression.hpp): stretches of each body,
 /// one pressure p at every contact node, N = p times the current area, and affine positions of all nodes. All
 /// of it holds to round-off, which is machine epsilon times K/p, 1e-13, times ten.
+#include "tribogel/friction/polynomial.hpp"
 #include "uniform_compression.hpp"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 /// three iterations when the rest is solved exactly, in every contact state; and it changes no result.
 #include "probe.hpp"
 #include "solver_options.hpp"
+#include "tribogel/friction/polynomial.hpp"
 #include "wall_scenes.hpp"
 
 namespace tribogel::test

@@ -2,6 +2,7 @@
 /// under load. Exact: no slip, no torque, and the normal force of the scene that does not turn, to round-off;
 /// and a relative rotation gives the same torque whether the bottom plate stands still or both turn.
 #include "scenes.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 #include <algorithm>
 #include <cmath>

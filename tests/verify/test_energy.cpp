@@ -4,6 +4,7 @@
 /// tractions a little work. Where they stick there is none.
 #include "scenes.hpp"
 #include "solver_options.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 #include <array>
 #include <cmath>

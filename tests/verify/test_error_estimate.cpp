@@ -4,6 +4,7 @@
 /// with the last one's step.
 #include "probe.hpp"
 #include "solver_options.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 namespace tribogel::test
 {
@@ -15,7 +16,7 @@ namespace
 Scene scene_of(double tolerance)
 {
   Scene scene = paper_scene(4);
-  scene.friction = {{2}, {1}};
+  scene.friction = PolynomialFriction<double>{{2}, {1}};
   scene.schedule = schedule_from_rates({27, 60, 90}, {0.79, 0.79, 0.79}, {0, 0, 0.01});
   scene.time = {TimeRule::sdirk2, tolerance};
   return scene;

@@ -19,6 +19,7 @@
 ///
 /// for a half-space under a rigid face; two equal bodies turn by twice theta between their far ends.
 #include "hertz.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 namespace tribogel::test
 {
@@ -116,7 +117,7 @@ double viscous_error(int order, int level, int m)
 {
   HertzScene is{order, level};
   const double omega = 0.1, b = 0.21 / std::pow(omega * is.a, m);
-  is.friction = {{b}, {static_cast<double>(m)}};
+  is.friction = PolynomialFriction<double>{{b}, {static_cast<double>(m)}};
   const Turned turned = turn(is, {omega}, 4);
   const Hertz &hertz = turned.hertz;
   const double factor = m == 1 ? 2.0 / 5 : 15 * pi / 160;

@@ -2,6 +2,7 @@
 /// the start of the next step. A run whose steps fail (Newton's iterations run out) or are rejected (error
 /// estimate) is compared with one that takes the same accepted steps and rejects none.
 #include "probe.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 namespace tribogel::test
 {
@@ -15,7 +16,7 @@ Scene scene_of(int order, TimeRule rule)
 {
   Scene scene = paper_scene(4, order);
   scene.time.rule = rule;
-  scene.friction = {{0, 0.013}, {0, 1}};
+  scene.friction = PolynomialFriction<double>{{0, 0.013}, {0, 1}};
   scene.schedule = schedule_from_rates({8}, {0.57}, {0.3});
   return scene;
 }

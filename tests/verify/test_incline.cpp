@@ -6,6 +6,7 @@
 /// pushing along y: F = T/distance, W = N. Compression bends the interface, by angles that fall with it: so
 /// does the error.
 #include "solids.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 namespace tribogel::test
 {
@@ -39,7 +40,7 @@ Measurement pushed(int order, double compression)
   scene.top = {1, 1, neo_hookean(0.6, 5)};
   scene.bottom = {1, 1, neo_hookean(0.6, 5)};
   scene.mesh.element_order = order;
-  scene.friction = {{mu}, {0}};
+  scene.friction = PolynomialFriction<double>{{mu}, {0}};
   scene.schedule = schedule_from_rates({1, 2}, {compression, compression}, {0, 5 * compression / distance});
   const SolverOptions options(fixed_steps(0.5, 1e-9));
   Problem problem;

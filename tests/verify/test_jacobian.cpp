@@ -6,6 +6,7 @@
 /// weight (the axis) count like others. Tolerance: 1e-8 relative, plus the round-off of the difference
 /// itself, (64 eps x sum of absolute forces + 16 x round-off of the unloaded body) / h.
 #include "probe.hpp"
+#include "tribogel/friction/polynomial.hpp"
 #include "wall_scenes.hpp"
 
 #include <limits>
@@ -34,8 +35,8 @@ Scene scene_of(const Case &c)
   scene.bottom.material = hyperelastic_gel(); // history on one side of the contact only
   scene.top.material.branches[0].deviatoric_viscosity = 2.7;
   scene.initial_gap = c.gap;
-  scene.friction = {c.coefficients, c.exponents, c.pressure_exponent,
-                    0.3}; // pressures on both sides of the floor
+  scene.friction = PolynomialFriction<double>{c.coefficients, c.exponents, c.pressure_exponent,
+                                              0.3}; // pressures on both sides of the floor
   scene.schedule = schedule_from_rates({2.3, 4.1}, {0.31, 0.37}, {0.013, 0.17});
   scene.bottom_plate_rate = 0.021;
   scene.mesh.grading = 2;

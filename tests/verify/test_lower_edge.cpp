@@ -2,6 +2,7 @@
 /// (mesh/split_corner.hpp), and a scene in which it does.
 #include "scenes.hpp"
 #include "solver_options.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 #include <cmath>
 #include <map>
@@ -61,7 +62,7 @@ MeridianBlock block_of(int split)
 Scene held(double mu, int elements, double grading)
 {
   Scene scene = paper_scene(elements);
-  scene.friction = {{mu}, {0}};
+  scene.friction = PolynomialFriction<double>{{mu}, {0}};
   scene.mesh.grading = grading;
   return scene;
 }
@@ -130,7 +131,7 @@ TEST(lower_edge, WhereItIsSplit)
   EXPECT_EQ(split(held(0.3, 8, 60)), 1);
   EXPECT_EQ(split(held(0.05, 12, 30)), 0);
   EXPECT_EQ(split(held(0.3, 12, 4)), 0);
-  paper.friction = {{0.02}, {1}}; // mu = 0.2 at the rim at 1 rad/s
+  paper.friction = PolynomialFriction<double>{{0.02}, {1}}; // mu = 0.2 at the rim at 1 rad/s
   EXPECT_EQ(split(paper), 1);
   paper.model = Model::solid;
   EXPECT_EQ(split(paper), 0);

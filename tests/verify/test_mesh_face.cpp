@@ -3,6 +3,7 @@
 /// 0.376 and <r^2> = 0.159.
 #include "gmsh_texts.hpp"
 #include "solver_options.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 namespace tribogel::test
 {
@@ -20,7 +21,7 @@ Scene turned_cubes(int order)
   scene.top.radius = scene.bottom.radius = std::sqrt(1 / std::numbers::pi);
   scene.top.height = scene.bottom.height = 1;
   scene.top.material = scene.bottom.material = hyperelastic_gel();
-  scene.friction = {{0.1}, {0}};
+  scene.friction = PolynomialFriction<double>{{0.1}, {0}};
   scene.schedule = schedule_from_twists({1, 2}, {0.05, 0.05}, {0, 0.02});
   return scene;
 }

@@ -2,6 +2,7 @@
 /// formats, with straight and curved cells; what a file must not be is refused in words.
 #include "gmsh_texts.hpp"
 #include "solver_options.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 namespace tribogel::test
 {
@@ -15,7 +16,7 @@ Scene turned_gels(int order, int elements)
   scene.model = Model::solid;
   scene.mesh.grading = 1;
   scene.top.material = scene.bottom.material = hyperelastic_gel();
-  scene.friction = {{0.02}, {1}};
+  scene.friction = PolynomialFriction<double>{{0.02}, {1}};
   scene.schedule = schedule_from_rates({1, 2}, {0.3, 0.3}, {0, 0.5});
   return scene;
 }

@@ -1,5 +1,6 @@
 /// Gels whose axes do not coincide: the top plate's axis stands aside, or its face is inclined against it.
 #include "probe.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 #include <cmath>
 
@@ -17,7 +18,7 @@ Scene misaligned_scene(const Misalignment &misalignment, int order = 1)
   scene.mesh.grading = 1;
   scene.top.material.branches.clear();
   scene.bottom.material.branches.clear();
-  scene.friction = {{0.02}, {1}};
+  scene.friction = PolynomialFriction<double>{{0.02}, {1}};
   scene.schedule = schedule_from_rates({1, 2}, {0.5, 0.5}, {0, 0.7});
   scene.time.tolerance = 5;
   scene.misalignment = misalignment;

@@ -1,6 +1,7 @@
 /// What a run says by itself: failures in words and by kind, and whether the friction law is asked what it
 /// can answer.
 #include "probe.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 #include <algorithm>
 
@@ -19,7 +20,7 @@ bool contains(const std::string &text, const std::string &part)
 Scene turned_at(double rate, const std::vector<double> &coefficients)
 {
   Scene scene = paper_scene(5);
-  scene.friction = {coefficients, {0, 1}};
+  scene.friction = PolynomialFriction<double>{coefficients, {0, 1}};
   scene.schedule = schedule_from_rates({20, 40}, {0.4, 0.4}, {0, rate});
   return scene;
 }
@@ -115,7 +116,7 @@ TEST(notices, FrictionThatFallsFasterThanTheGelsHoldIsToldOnce)
   Scene scene = turned_at(0.05, {0.2, -0.05});
   scene.schedule = schedule_from_rates({20, 20.1}, {0.4, 0.4}, {0, 0.05});
   for (const double slope : {-0.05, -1e-6, 1e-6}) {
-    scene.friction.coefficients[1] = slope;
+    scene.friction = PolynomialFriction<double>{{0.2, slope}, {0, 1}};
     Problem problem;
     Recorder recorder("");
     outcome_of(scene, problem, recorder);

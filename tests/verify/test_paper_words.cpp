@@ -1,6 +1,7 @@
 /// What the paper says in words about its Figs. 5 to 13, as statements. Those about Fig. 8 and the tenfold
 /// torque are in test_paper_anchors.cpp.
 #include "scenes.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +37,7 @@ Scene pair(bool viscous_top, bool viscous_bottom)
   Scene scene = paper_scene(4);
   scene.top.material = viscous_top ? viscoelastic_gel() : hyperelastic_gel();
   scene.bottom.material = viscous_bottom ? viscoelastic_gel() : hyperelastic_gel();
-  scene.friction = {{0.0015, 1e-5}, {1, 2}};
+  scene.friction = PolynomialFriction<double>{{0.0015, 1e-5}, {1, 2}};
   scene.schedule = schedule_from_rates({27, 600, 1500, 2400}, {0.79, 0.79, 0.79, 0.79}, {0, 0, 0.1, 1});
   return scene;
 }

@@ -11,6 +11,7 @@
 /// lies at a distance proportional to n^grade restore order 2 of the energy for elements of order 1 (grade >
 /// 2); with grade 3 the others have order 3. Finer edges than the indentation would fold.
 #include "outlines.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 #include <numbers>
 

@@ -6,6 +6,7 @@
 ///
 /// The inner side is a wall and not the axis: the inner end of a contact curve is an edge like the outer one.
 #include "outlines.hpp"
+#include "tribogel/friction/polynomial.hpp"
 #include "uniform_compression.hpp"
 
 namespace tribogel::test
@@ -23,7 +24,7 @@ double torque_error(int order, int elements, const std::vector<double> &b)
   const double compression = 0.03;
   const UniaxialState state = uniaxial_state(hyperelastic_gel().equilibrium, 1 - compression);
   Scene scene = lubricated_discs(R / state.lateral, 4.4, 4, order);
-  scene.friction = {b, exponents};
+  scene.friction = PolynomialFriction<double>{b, exponents};
   scene.plate_contact = false;
   const double approach = compression * (scene.top.height + scene.bottom.height);
   scene.schedule = schedule_from_rates({2.5, 12.5}, {approach, approach}, {0, omega});

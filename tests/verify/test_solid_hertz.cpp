@@ -1,6 +1,7 @@
 /// Hertz's contact in space: the scene of hertz.hpp with hexahedra. Too long for every day; the
 /// tables of tests/README.md come from here.
 #include "hertz.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 namespace tribogel::test
 {
@@ -54,7 +55,7 @@ TEST(solid_hertz, ACapPressesAndSlidesAsInTheHalfPlane)
 {
   HertzScene is{1, 0};
   is.width = 3;
-  is.friction = {{0.5}, {1}};
+  is.friction = PolynomialFriction<double>{{0.5}, {1}};
   const SolverOptions options(fixed_steps(0.5, 1e-9));
   const double d = is.approach();
   const Schedule schedule = schedule_from_rates({1, 2}, {d, d}, {0, 0.1});
@@ -79,7 +80,7 @@ TEST(solid_hertz, DISABLED_PressureAndViscousTorque)
   const double omega = 0.1;
   HertzScene is = small_scene(1, 0);
   const double b = 0.21 / (omega * is.a);
-  is.friction = {{b}, {1}};
+  is.friction = PolynomialFriction<double>{{b}, {1}};
   const SolverOptions options(fixed_steps(0.5, 1e-9));
   Problem problem;
   Recorder recorder("");
@@ -102,7 +103,7 @@ TEST(solid_hertz, DISABLED_PartialAndFullSlip)
 {
   constexpr double mu = 0.37, half = 0.225712; // G theta a^2/(mu N) of one half-space
   HertzScene is = small_scene(1, 0);
-  is.friction = {{mu}, {0}};
+  is.friction = PolynomialFriction<double>{{mu}, {0}};
   const double N = 4.0 / 3 * is.elastic().plane() / 2 * std::pow(is.a, 3) / is.sphere();
   const double twist = 2 * half * mu * N / (is.elastic().G * is.a * is.a), d = is.approach();
   OptionList list = fixed_steps(0.25, 1e-8);

@@ -1,6 +1,7 @@
 /// Two gels in space: the rheometer's steady states against the axisymmetric model, rigid co-rotation,
 /// balance.
 #include "probe.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 #include <cstdio>
 
@@ -57,7 +58,7 @@ TEST(solid_rheometer, CommonRotationLeavesNoTrace)
 {
   for (int order : {1, 2}) {
     Scene scene = steady_scene(Model::solid, order, order == 1 ? 3 : 2);
-    scene.friction = {{0.3}, {1}};
+    scene.friction = PolynomialFriction<double>{{0.3}, {1}};
     scene.schedule = schedule_from_rates({100, 250}, {0.4, 0.4}, {4, 4});
     Problem still, turning;
     Recorder without(""), with("");

@@ -10,6 +10,7 @@
 /// from scalar equations (uniform_compression.hpp). The twist is 2e-6, so that what it does in second order
 /// is round-off. In space the nodal tractions carry the torque of r^2 but not its distribution over one
 /// element: an error that falls with the mesh width and vanishes in the steady state of order 2.
+#include "tribogel/friction/polynomial.hpp"
 #include "uniform_compression.hpp"
 
 #include <algorithm>
@@ -35,7 +36,7 @@ SpinUp spin_up(int order, int elements, double dt, TimeRule rule = TimeRule::exp
   const double compression = 0.08;
   Scene scene = lubricated_discs(7, 3.1, 2.3, order);
   scene.mesh.elements_radial = elements;
-  scene.friction = {{b1}, {1}};
+  scene.friction = PolynomialFriction<double>{{b1}, {1}};
   scene.time.rule = rule;
   const double approach = compression * (scene.top.height + scene.bottom.height);
   scene.schedule = schedule_from_rates({start, start + duration}, {approach, approach}, {0, omega});
@@ -144,7 +145,7 @@ TEST(spin_up, HasNoPeakThatAFinerStepRemoves)
   for (const double strength : {1e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3}) {
     Scene scene = lubricated_discs(7, 3.1, 2.3, 1);
     scene.mesh.elements_radial = 4;
-    scene.friction = {{strength}, {1}};
+    scene.friction = PolynomialFriction<double>{{strength}, {1}};
     scene.time = {TimeRule::sdirk2, 0.1};
     const double approach = 0.08 * (scene.top.height + scene.bottom.height);
     scene.schedule = schedule_from_rates({start, start + duration}, {approach, approach}, {0, 1});
@@ -164,7 +165,7 @@ TEST(spin_up, HasNoPeakWithSteepFriction)
     Scene scene = paper_scene(4, 1);
     for (Specimen *gel : {&scene.top, &scene.bottom})
       gel->material = {{{0.08 / 3}, {2}, 2.7}, {{{{0.08 / 12}, {2}, 2.7}, 0.02, 1}}};
-    scene.friction = {{0.02}, {0.5}};
+    scene.friction = PolynomialFriction<double>{{0.02}, {0.5}};
     scene.schedule = schedule_from_rates({27, 600, 900}, {0.79, 0.79, 0.79}, {0, 0, rate});
     Problem problem;
     Recorder recorder("");

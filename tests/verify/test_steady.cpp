@@ -1,5 +1,6 @@
 /// The relaxed state of each phase, solved for directly, is what the transient tends to.
 #include "probe.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 namespace tribogel::test
 {
@@ -10,7 +11,7 @@ namespace
 Scene scene_of(int order, ScheduleKind kind)
 {
   Scene scene = paper_scene(6, order);
-  scene.friction = {{0.02, 8e-3}, {0, 1}};
+  scene.friction = PolynomialFriction<double>{{0.02, 8e-3}, {0, 1}};
   scene.schedule =
       schedule_from_rates({27, 4000, 4100, 8000}, {0.57, 0.57, 0.71, 0.71}, {0.05, 0.05, 0.4, 0.4});
   scene.schedule_kind = kind;
@@ -53,7 +54,7 @@ TEST(steady, PressesAtRestAndThenTurnsWhateverTheExponent)
       scene.schedule_kind = ScheduleKind::steady;
       Scene slippery = scene, transient = scene;
       slippery.friction = {};
-      scene.friction = {{0.02}, {m}, pressure_exponent};
+      scene.friction = PolynomialFriction<double>{{0.02}, {m}, pressure_exponent};
       transient.friction = scene.friction;
       transient.schedule_kind = ScheduleKind::transient;
       Problem problem, smooth, slow;

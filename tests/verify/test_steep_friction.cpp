@@ -2,6 +2,7 @@
 /// from rest through three rates of rotation. Once the gels' twist has settled v = omega r, so each slipping
 /// node must carry the law's Cauchy traction and, N being the same, T must grow with omega^m.
 #include "scenes.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,6 +8,7 @@
 /// axis)/a to the fourth. Far above it everything slides: T = 2/3 pi a^3 b0 p. Between, a ring slides that
 /// grows from the rim. The numbers are those of scalar equations (uniform_compression.hpp); b0 is so small
 /// that the twist's second order, about b0^2, is below the tolerances.
+#include "tribogel/friction/polynomial.hpp"
 #include "uniform_compression.hpp"
 
 #include <algorithm>
@@ -40,7 +41,7 @@ void twist_and_hold(Twisted &is, int order, double twist, double end, int elemen
   Scene scene = lubricated_discs(7, 3.1, 2.3, order);
   scene.mesh.elements_radial = elements;
   scene.mesh.bottom_elements_radial = elements + elements / 2;
-  scene.friction = {{b0}, {0}};
+  scene.friction = PolynomialFriction<double>{{b0}, {0}};
   const UniaxialState state = uniaxial_state(scene.top.material.equilibrium, 1 - compression);
   const double a = scene.top.radius * state.lateral,
                h = (scene.top.height + scene.bottom.height) * state.axial;

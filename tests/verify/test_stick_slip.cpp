@@ -9,6 +9,7 @@
 /// backwards has the same torque with the other sign.
 #include "scenes.hpp"
 #include "solver_options.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +26,7 @@ Scene turned_and_back(int order)
 {
   Scene scene = paper_scene(4, order);
   scene.top.material = scene.bottom.material = hyperelastic_gel();
-  scene.friction = {{mu}, {0}};
+  scene.friction = PolynomialFriction<double>{{mu}, {0}};
   scene.time.rule = TimeRule::exponential_euler; // one solve a step: its iterations are counted
   scene.schedule = schedule_from_rates({27, 727, 2127}, {0.79, 0.79, 0.79}, {0, 0.01, -0.01});
   return scene;

@@ -3,6 +3,7 @@
 /// step: a single fine run would flatter the order. Each phase ends on a common multiple of the steps.
 #include "scenes.hpp"
 #include "solver_options.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 #include <algorithm>
 #include <array>

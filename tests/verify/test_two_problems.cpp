@@ -1,6 +1,7 @@
 /// A Problem holds all of its state: two different ones in one process, one run inside a step of the other,
 /// give the numbers of separate runs, bit for bit.
 #include "probe.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 namespace tribogel::test
 {
@@ -19,7 +20,7 @@ Scene sticking_scene()
 {
   Scene scene = paper_scene(5, 1);
   scene.bottom.material = hyperelastic_gel();
-  scene.friction = {{0.21, 0.013}, {0, 1}};
+  scene.friction = PolynomialFriction<double>{{0.21, 0.013}, {0, 1}};
   scene.schedule = schedule_from_rates({1.5, 6}, {0.29, 0.29}, {0.02, 0.11});
   return scene;
 }

@@ -13,6 +13,7 @@
 ///
 /// p being per current area: per reference area it is 3 % more here, of which the torque would show 1 - a.
 /// The gels' twist changes p in second order only: (shear stress)^2/(G p), below 1e-7 here.
+#include "tribogel/friction/polynomial.hpp"
 #include "uniform_compression.hpp"
 
 namespace tribogel::test

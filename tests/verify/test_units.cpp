@@ -4,6 +4,7 @@
 /// regularisation) breaks it.
 #include "scenes.hpp"
 #include "solver_options.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,8 +45,9 @@ Scene converted(Scene scene, const Units &unit)
   convert(scene.top, unit);
   convert(scene.bottom, unit);
   scene.initial_gap *= unit.length;
-  for (std::size_t i = 0; i < scene.friction.coefficients.size(); ++i)
-    scene.friction.coefficients[i] *= std::pow(unit.time / unit.length, scene.friction.exponents[i]);
+  LawValues law = scene.friction.law()->values(); // coefficients and exponents of a polynomial
+  for (std::size_t i = 0; i < law[0].size(); ++i) law[0][i] *= std::pow(unit.time / unit.length, law[1][i]);
+  scene.friction = PolynomialFriction<double>{law[0], law[1]};
   for (Phase &phase : scene.schedule) {
     phase.start_time *= unit.time;
     phase.end_time *= unit.time;

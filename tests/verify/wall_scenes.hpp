@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenes.hpp"
+#include "tribogel/friction/polynomial.hpp"
 
 namespace tribogel::test
 {
@@ -20,7 +21,7 @@ inline Scene mushroom(int order)
   scene.bottom = {9, 2.3, hyperelastic_gel()};
   for (double &G : scene.bottom.material.equilibrium.moduli) G *= 10;
   scene.bottom.material.equilibrium.bulk_modulus *= 10;
-  scene.friction = {{20}, {0}};
+  scene.friction = PolynomialFriction<double>{{20}, {0}};
   scene.mesh.grading = 3;
   scene.mesh.bottom_elements_radial =
       scene.mesh.elements_radial + 1; // nodes that do not meet, as in test_jacobian

@@ -8,16 +8,11 @@
 /// at rest. (Leaving the terms with m > 1 in the smooth part fails more often and takes three times the
 /// iterations: contact/node/condition.hpp.)
 ///
-/// For a < 1 the slope of p^a at p = 0 is infinite too. Below the floor p_0 a parabola takes its place,
-///
-///     q = p_0^a x (2 - a - (1 - a) x),    x = p / p_0,
-///
-/// which has the value 0 at p = 0, the value and the slope of p^a at p_0, and rises in between. Above p_0 the
-/// law is exact, and q has no kink (a straight line below p_0 would make one, with a jump of the slope by the
-/// factor a).
+/// pressure.hpp has q.
 #pragma once
 
-#include "tribogel/friction/law.hpp"
+#include "tribogel/friction/formula_law.hpp"
+#include "tribogel/friction/pressure.hpp"
 #include "tribogel/math/dual.hpp"
 
 #include <algorithm>
@@ -38,7 +33,7 @@ template <class T> struct PolynomialFriction {
   double pressure_exponent = 1; ///< a
   double pressure_floor = 1e-5; ///< p_0 [MPa], of no effect with a = 1
 
-  static bool steep(double exponent) { return exponent > 0 && exponent < 1; }
+  static bool is_steep(double exponent) { return exponent > 0 && exponent < 1; }
 
   /// S is the type of v and p; what comes out carries the derivatives of both (S with T = double, T with S =
   /// double).
@@ -49,54 +44,36 @@ template <class T> struct PolynomialFriction {
   bool has_steep_part() const
   {
     for (std::size_t i = 0; i < exponents.size(); ++i)
-      if (steep(exponents[i]) && value(coefficients[i]) > 0) return true;
+      if (is_steep(exponents[i]) && value(coefficients[i]) > 0) return true;
     return false;
   }
 
-  /// q(p) [MPa^a].
-  template <class S> S load(const S &p) const
-  {
-    using std::pow;
-    const double a = pressure_exponent;
-    if (a == 1) return p;
-    if (!(value(p) < pressure_floor)) return pow(p, a);
-    const S x = p / pressure_floor;
-    return std::pow(pressure_floor, a) * x * (2 - a - (1 - a) * x);
-  }
-
-  /// d q / d p.
+  /// q(p) [MPa^a], and d q / d p.
+  template <class S> S load(const S &p) const { return pressure_power(p, pressure_exponent, pressure_floor); }
   template <class S> S load_slope(const S &p) const
   {
-    using std::pow;
-    const double a = pressure_exponent;
-    if (a == 1) return 1;
-    if (!(value(p) < pressure_floor)) return a * pow(p, a - 1);
-    return std::pow(pressure_floor, a - 1) * (2 - a - 2 * (1 - a) * (p / pressure_floor));
+    return pressure_power_slope(p, pressure_exponent, pressure_floor);
   }
 
-  template <class S> StaticStrength<Result<S>> static_strength(const S &p) const
+  template <class S> Result<S> threshold(const S &p) const
   {
     Result<S> mu = 0;
     for (std::size_t i = 0; i < exponents.size(); ++i)
       if (exponents[i] == 0) mu += coefficients[i];
-    return {mu * load(p), mu * load_slope(p)};
+    return mu * load(p);
   }
 
-  template <class S> SlidingStress<Result<S>> sliding(const S &v, const S &p) const
+  template <class S> Result<S> drag(const S &v, const S &p) const
   {
-    Result<S> secant = 0, slope = 0; // of the smooth part
+    Result<S> secant = 0;
     const bool has_steep = has_steep_part();
-    for (std::size_t i = 0; i < exponents.size(); ++i) {
-      if (exponents[i] < 1 || (has_steep && rises(i))) continue;
-      const Result<S> term = coefficients[i] * power_of_speed(v, exponents[i] - 1);
-      secant += term;
-      slope += exponents[i] * term;
-    }
-    const S q = load(p);
-    return {secant * q, slope * q, secant * v * load_slope(p)};
+    for (std::size_t i = 0; i < exponents.size(); ++i)
+      if (exponents[i] >= 1 && !(has_steep && rises(i)))
+        secant += coefficients[i] * power_of_speed(v, exponents[i] - 1);
+    return secant * load(p);
   }
 
-  template <class S> Result<S> steep_stress(const S &v, const S &p) const
+  template <class S> Result<S> steep(const S &v, const S &p) const
   {
     Result<S> mu = 0;
     if (!has_steep_part()) return mu;
@@ -133,6 +110,88 @@ template <class T> struct PolynomialFriction {
     return mu * (value(p) == 0 ? load_slope(S(0)) : S(load(p) / p));
   }
 
+  bool may_fall() const
+  {
+    return std::any_of(coefficients.begin(), coefficients.end(), [](const T &b) { return value(b) < 0; });
+  }
+
+  static const LawDeclaration &declaration()
+  {
+    static const LawDeclaration all{"polynomial",
+                                    "mu = sum_i b_i v^m_i with the sliding speed v in mm/s",
+                                    "paper",
+                                    {{.name = "coefficients",
+                                      .fallback = "0,8e-4",
+                                      .unit = "MPa^(1-a) (mm/s)^-m_i",
+                                      .meaning = "b_i; a negative one (weakening) is taken with a note",
+                                      .lowest = -std::numeric_limits<double>::infinity(),
+                                      .is_list = true,
+                                      .rule = ">= 0 where 0 < m_i < 1",
+                                      .source = "paper"},
+                                     {.name = "exponents",
+                                      .fallback = "0,1",
+                                      .unit = "-",
+                                      .meaning = "m_i",
+                                      .is_list = true,
+                                      .rule = "as many as coefficients",
+                                      .as_long_as = 0,
+                                      .source = "paper"},
+                                     {.name = "pressure_exponent",
+                                      .fallback = "1",
+                                      .unit = "-",
+                                      .meaning = pressure_exponent_meaning,
+                                      .highest = 1,
+                                      .source = "paper"},
+                                     {.name = "pressure_floor",
+                                      .fallback = "1e-5",
+                                      .unit = "MPa",
+                                      .meaning = pressure_floor_meaning,
+                                      .lowest_excluded = true}},
+                                    "",
+                                    &objection};
+    return all;
+  }
+
+  static LawObjection objection(const LawValues &values)
+  {
+    double at_rest = 0;
+    for (std::size_t i = 0; i < values[1].size(); ++i) {
+      const double b = values[0][i], m = values[1][i];
+      if (is_steep(m) && b < 0)
+        return {0, six_digits(b) + " with exponent " + six_digits(m) +
+                       "; allowed: >= 0 with an exponent between 0 and 1"};
+      if (m == 0) at_rest += b;
+    }
+    if (at_rest < 0)
+      return {0, "the coefficient at rest is " + six_digits(at_rest) +
+                     "; allowed: the terms with exponent 0 add up to >= 0"};
+    return {};
+  }
+
+  std::string in_numbers() const
+  {
+    std::string text = "mu =";
+    for (std::size_t i = 0; i < coefficients.size(); ++i) {
+      const double b = value(coefficients[i]), m = exponents[i];
+      text += (i ? (b < 0 ? " - " : " + ") : (b < 0 ? " -" : " ")) + six_digits(std::abs(b));
+      if (m != 0) text += " v" + (m == 1 ? std::string() : "^" + six_digits(m));
+    }
+    text += " (v in mm/s)";
+    if (linear_in_pressure()) return text;
+    return text + ", |traction| = mu p^" + six_digits(pressure_exponent) + " (p in MPa, above " +
+           six_digits(pressure_floor) + ")";
+  }
+
+  void set(const LawValuesOf<T> &values)
+  {
+    *this = {values[0], {}, value(values[2][0]), value(values[3][0])};
+    for (const T &m : values[1]) exponents.push_back(value(m));
+  }
+  LawValuesOf<T> values() const
+  {
+    return {coefficients, {exponents.begin(), exponents.end()}, {T(pressure_exponent)}, {T(pressure_floor)}};
+  }
+
   template <class U> PolynomialFriction<U> cast() const
   {
     return {std::vector<U>(coefficients.begin(), coefficients.end()), exponents, pressure_exponent,
@@ -141,16 +200,6 @@ template <class T> struct PolynomialFriction {
 
 private:
   bool rises(std::size_t i) const { return exponents[i] > 0 && value(coefficients[i]) > 0; }
-
-  /// v^e for e >= 0. The derivative of v^e at v = 0, infinite for e < 1, is left out: tau_1 is |v|^(m-1)
-  /// times the velocity vector, whose derivative at v = 0 is |v|^(m-1) times the identity.
-  template <class S> static S power_of_speed(const S &v, double e)
-  {
-    using std::pow;
-    if (e == 0) return 1;
-    if (e == 1) return v;
-    return value(v) == 0 ? S(0) : S(pow(v, e));
-  }
 
   /// The v >= 0 with q sum b_i v^(m_i) + drag v = stress, for stress, drag > 0; 0 where it underflows. In log
   /// v the logarithm of the left side is convex with slopes between the least m_i and 1, so Newton's method

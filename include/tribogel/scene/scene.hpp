@@ -2,7 +2,7 @@
 /// MPa, rad. The defaults are the paper's rheometer as src/PAPER.md reads it.
 #pragma once
 
-#include "tribogel/friction/polynomial.hpp"
+#include "tribogel/friction/friction.hpp"
 #include "tribogel/material/viscoelastic.hpp"
 #include "tribogel/schedule/schedule.hpp"
 
@@ -106,7 +106,7 @@ struct Scene {
   /// nothing.
   bool plate_contact = true;
   ContactIntegration contact_integration = ContactIntegration::segments;
-  PolynomialFriction<double> friction;
+  Friction friction;
   std::optional<std::array<double, 2>> friction_speeds; ///< for which the law was found, from and to [mm/s]
   Schedule schedule;
   ScheduleKind schedule_kind = ScheduleKind::transient;

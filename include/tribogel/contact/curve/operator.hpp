@@ -62,11 +62,9 @@ public:
 
   /// Residual and, if `update` was asked for derivatives, Jacobian of slave node a. Without a multiplier the
   /// row is lambda = 0.
-  template <class Law>
-  requires FrictionLaw<Law, Dual<10>> && FrictionLaw<Law, Dual<11>>
-  void node(int a, const Law &law, NodeBlock &block) const;
+  void node(int a, const Friction &law, NodeBlock &block) const;
 
-  template <FrictionLaw<double> Law> NodeResult result(int a, const Law &law) const;
+  NodeResult result(int a, const Friction &law) const;
 
   /// Force along z and torque about it on the slave: (sum D lambda_z, sum r D lambda_theta) of node a [N, N
   /// mm]. The torque that opposes a rotation of the slave is the negative of the second.
@@ -112,7 +110,7 @@ private:
                                             [&](int b) { return at[b]; }));
     return normal;
   }
-  template <class Law> NodeContact<double> contact_of(int a, const Law &law) const
+  NodeContact<double> contact_of(int a, const Friction &law) const
   {
     NodeContact<double> node;
     node.x = x[a];
@@ -126,8 +124,9 @@ private:
     return node;
   }
   bool is_folded(int f) const;
-  template <int inputs, class Law>
-  Eigen::Matrix<double, 3, inputs> slope_at(int a, const NodeContact<double> &contact, const Law &law) const;
+  template <int inputs>
+  Eigen::Matrix<double, 3, inputs> slope_at(int a, const NodeContact<double> &contact,
+                                            const Friction &law) const;
   void add_area_slope(int a, const Vector3<double> &condition, NodeBlock &block) const;
   void without_multiplier(int a, NodeBlock &block) const;
 };
@@ -170,9 +169,7 @@ inline MortarReport CurveContact::update(const ContactState<double> &state, Face
   return report;
 }
 
-template <class Law>
-requires FrictionLaw<Law, Dual<10>> && FrictionLaw<Law, Dual<11>>
-void CurveContact::node(int a, const Law &law, NodeBlock &block) const
+inline void CurveContact::node(int a, const Friction &law, NodeBlock &block) const
 {
   if (!geometry.nodes[a].carries) return without_multiplier(a, block);
   const NodeContact<double> contact = contact_of(a, law);
@@ -199,9 +196,9 @@ void CurveContact::node(int a, const Law &law, NodeBlock &block) const
 }
 
 /// d (D C) / d (multiplier 0..2, gap 3, velocity 4..6, normal 7..9, area ratio 10).
-template <int inputs, class Law>
+template <int inputs>
 Eigen::Matrix<double, 3, inputs> CurveContact::slope_at(int a, const NodeContact<double> &contact,
-                                                        const Law &law) const
+                                                        const Friction &law) const
 {
   const auto &constants = geometry.nodes[a];
   const ContactPoint<double> point{
@@ -255,7 +252,7 @@ inline bool CurveContact::is_folded(int f) const
   return geometry.slave_chain.facet_nodes == 2 ? ends.operator()<2>() : ends.operator()<3>();
 }
 
-template <FrictionLaw<double> Law> NodeResult CurveContact::result(int a, const Law &law) const
+inline NodeResult CurveContact::result(int a, const Friction &law) const
 {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto &constants = geometry.nodes[a];

@@ -57,7 +57,7 @@
 ///   memory of the iteration before is needed: the same state always gives the same equation.
 #pragma once
 
-#include "tribogel/friction/law.hpp"
+#include "tribogel/friction/friction.hpp"
 #include "tribogel/math/dual.hpp"
 #include "tribogel/math/tensor.hpp"
 
@@ -100,18 +100,17 @@ template <class T> T robust_norm(const Vector3<T> &v)
 }
 
 /// tau(|v|, p) v / |v| at a given velocity, without the threshold at rest; tau = area_ratio times the law's.
-template <class T, FrictionLaw<T> Law>
+template <class T, FrictionFor<T> Law>
 Vector3<T> drag_at(const Vector3<T> &v, const T &area_ratio, const T &cauchy, const Law &law)
 {
   const T speed = robust_norm(v);
-  T over_speed = law.sliding(speed, cauchy).over_v;
-  if (value(speed) > 0)
-    over_speed += (law.static_strength(cauchy).value + law.steep_stress(speed, cauchy)) / speed;
+  T over_speed = law.drag(speed, cauchy);
+  if (value(speed) > 0) over_speed += (law.threshold(cauchy) + law.steep(speed, cauchy)) / speed;
   return area_ratio * over_speed * v;
 }
 
 /// `on_axis`: on the axis of an axisymmetric model every tangential quantity vanishes; C_T = lambda_T there.
-template <class T, FrictionLaw<T> Law>
+template <class T, FrictionFor<T> Law>
 ContactCondition<T> contact_condition(const ContactPoint<T> &at, const ContactScale &scale, const Law &law,
                                       bool on_axis = false)
 {
@@ -130,18 +129,18 @@ ContactCondition<T> contact_condition(const ContactPoint<T> &at, const ContactSc
     return {lambda_T + drag_at<T>(v, J, cauchy, law) - C_N * at.normal,
             moves ? ContactStatus::slip : ContactStatus::stick};
   }
-  const T drag = J * law.sliding(robust_norm(v), cauchy).over_v, c_T = scale.tangential;
+  const T drag = J * law.drag(robust_norm(v), cauchy), c_T = scale.tangential;
   const bool dragged = value(drag) > 0;
   const T k = dragged ? T(c_T + drag) : c_T;
   const Vector3<T> lambda_c = lambda_T + drag * v;
   const Vector3<T> s = (dragged ? lambda_T : lambda_c) - c_T * v;
-  const T b = J * law.static_strength(cauchy).value, magnitude = robust_norm(s);
+  const T b = J * law.threshold(cauchy), magnitude = robust_norm(s);
   const bool steep = law.has_steep_part() && value(p) > 0;
   Vector3<T> C_T = lambda_c;
   ContactStatus status = ContactStatus::stick;
   if (value(magnitude) > value(b)) {
     const T speed = steep ? T(law.steep_speed(T((magnitude - b) / J), T(k / J), cauchy)) : T(0);
-    const T strength = steep ? T(b + J * law.steep_stress(speed, cauchy)) : b;
+    const T strength = steep ? T(b + J * law.steep(speed, cauchy)) : b;
     if (steep && value(k) * value(speed) < value(strength))
       C_T = k * (v + (speed / magnitude) * s); // the same without the cancellation of lambda_c and s
     else

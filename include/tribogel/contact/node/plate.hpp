@@ -7,7 +7,7 @@
 #pragma once
 
 #include "tribogel/contact/node/condition.hpp"
-#include "tribogel/friction/polynomial.hpp"
+#include "tribogel/friction/friction.hpp"
 
 namespace tribogel
 {
@@ -32,7 +32,7 @@ inline PlateNodeBlock plate_node(double gap, const Vector3<double> &normal, cons
   point.velocity = Vector3<Scalar>::Zero();
   for (int i = 0; i < 3; ++i) point.multiplier[i] = Scalar::seed(multiplier[i], i);
   point.gap = Scalar::seed(gap, 3);
-  static const PolynomialFriction<double> frictionless;
+  static const Friction frictionless;
   const auto C = contact_condition<Scalar>(point, {c_N, c_N}, frictionless); // c_T has no part without a law
   const Matrix3<double> onto = normal * normal.transpose();
   PlateNodeBlock block{-D * onto * multiplier, {}, -D * onto, {}, {}, C.status};

@@ -6,7 +6,7 @@
 namespace tribogel
 {
 
-template <class Law, class Emit> void SurfaceContact::jacobian(const Law &law, const Emit &emit) const
+template <class Emit> void SurfaceContact::jacobian(const Friction &law, const Emit &emit) const
 {
   std::vector<Slope> slope(normal.size());
   for (int a = first_node; a < last_node; ++a) {

@@ -69,16 +69,16 @@ public:
                       int last = -1);
 
   /// Residual of slave node a. Without a multiplier the row is lambda = 0.
-  template <FrictionLaw<double> Law> void node(int a, const Law &law, NodeBlock &block) const;
+  void node(int a, const Friction &law, NodeBlock &block) const;
 
   /// d residual / d (u, lambda), with d rate / d u = shift, of the nodes given to update(derivatives = true),
   /// in blocks for `emit`.
-  template <class Law, class Emit> void jacobian(const Law &law, const Emit &emit) const;
+  template <class Emit> void jacobian(const Friction &law, const Emit &emit) const;
 
   /// Rows and columns of the blocks that `jacobian` can emit as long as `pairs` are sufficient.
   template <class Emit> void pattern(const Pairs &pairs, int first, int last, const Emit &emit) const;
 
-  template <FrictionLaw<double> Law> NodeResult result(int a, const Law &law) const;
+  NodeResult result(int a, const Friction &law) const;
 
   /// Force along z and torque about the slave's axis on the slave's node a [N, N mm].
   std::pair<double, double> resultant(int a) const
@@ -315,7 +315,7 @@ inline SurfaceContact::NodeContact SurfaceContact::contact_of(int a, bool with_a
   return contact;
 }
 
-template <FrictionLaw<double> Law> void SurfaceContact::node(int a, const Law &law, NodeBlock &block) const
+inline void SurfaceContact::node(int a, const Friction &law, NodeBlock &block) const
 {
   const auto &constants = geometry.nodes[a];
   const Vector3<double> &lambda = now.multiplier[a];
@@ -345,7 +345,7 @@ template <FrictionLaw<double> Law> void SurfaceContact::node(int a, const Law &l
   block.residual.tail<3>() = constants.weight() * condition.residual;
 }
 
-template <FrictionLaw<double> Law> NodeResult SurfaceContact::result(int a, const Law &law) const
+inline NodeResult SurfaceContact::result(int a, const Friction &law) const
 {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto &constants = geometry.nodes[a];

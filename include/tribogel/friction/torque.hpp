@@ -8,7 +8,9 @@
 /// with <f> the area mean, N = p A, T = A p <r mu(omega r)>, and the coefficient is <mu(omega r)>.
 #pragma once
 
-#include "tribogel/friction/polynomial.hpp"
+#include "tribogel/friction/friction.hpp"
+
+#include <boost/math/quadrature/tanh_sinh.hpp>
 
 #include <cmath>
 #include <limits>
@@ -39,6 +41,23 @@ public:
     for (const Part &part : parts) {
       area += part.area;
       sum += part.area * std::pow(part.radius, power);
+    }
+    return sum / area;
+  }
+
+  /// Area mean of f(r), by a rule for which powers of r below 1 are smooth enough (tanh-sinh).
+  template <class F> double mean(const F &f) const
+  {
+    if (parts.empty()) {
+      if (!(R > 0)) return f(0.0);
+      constexpr double accuracy = 1e-12;
+      thread_local boost::math::quadrature::tanh_sinh<double> rule;
+      return 2 / (R * R) * rule.integrate([&](double r) { return f(r) * r; }, 0.0, R, accuracy);
+    }
+    double area = 0, sum = 0;
+    for (const Part &part : parts) {
+      area += part.area;
+      sum += part.area * f(part.radius);
     }
     return sum / area;
   }
@@ -75,39 +94,18 @@ inline double gong_coefficient(double torque, double normal_force, const Contact
   return gong_friction_force(torque, face) / normal_force;
 }
 
-/// Area mean of mu(omega r) over the face; the numerator of (3.13) over the half of R^2 that is the disc's
-/// integral of r.
-template <class T> T mean_coefficient(const PolynomialFriction<T> &law, const ContactFace &face, double rate)
-{
-  T sum = 0;
-  for (std::size_t i = 0; i < law.exponents.size(); ++i)
-    sum += law.coefficients[i] *
-           (std::pow(std::abs(rate), law.exponents[i]) * face.mean_power(law.exponents[i]));
-  return sum;
-}
-
-/// T / N of a law proportional to the pressure, for a uniform one: the area mean of r mu(omega r) [mm]; the
-/// denominator of (3.13) over the same.
-template <class T> T torque_over_force(const PolynomialFriction<T> &law, const ContactFace &face, double rate)
-{
-  T sum = 0;
-  for (std::size_t i = 0; i < law.exponents.size(); ++i)
-    sum += law.coefficients[i] *
-           (std::pow(std::abs(rate), law.exponents[i]) * face.mean_power(law.exponents[i] + 1));
-  return sum;
-}
-
-/// Apparent coefficient for a polynomial law, eq. (3.13): the area mean of mu, scaled as the torque T is to
-/// the one that the law gives, for a rotation at `rate` [rad/s]. (3.11) is its case of the exponents 0, 1, 2,
-/// corrected as src/PAPER.md says. NaN also where the law gives no torque, and where tau is not proportional
-/// to p.
-inline double apparent_coefficient(const PolynomialFriction<double> &law, double torque, double normal_force,
+/// Apparent coefficient for any law, eq. (3.13): the area mean of mu, scaled as the torque T is to the one
+/// that the law gives under uniform pressure, T/N = <r mu(omega r)>, for a rotation at `rate` [rad/s]. The
+/// paper has it for a polynomial law; (3.11) is its case of the exponents 0, 1, 2, corrected as src/PAPER.md
+/// says. NaN also where the law gives no torque, and where tau is not proportional to p.
+inline double apparent_coefficient(const Friction &law, double torque, double normal_force,
                                    const ContactFace &face, double rate)
 {
   if (!(normal_force > 0 && law.linear_in_pressure())) return std::numeric_limits<double>::quiet_NaN();
-  const double per_force = torque_over_force(law, face, rate);
+  const auto mu = [&](double r) { return law.coefficient(std::abs(rate) * r, 1); };
+  const double per_force = face.mean([&](double r) { return r * mu(r); }); // T / N [mm]
   if (!(std::abs(per_force) > 0)) return std::numeric_limits<double>::quiet_NaN();
-  return mean_coefficient(law, face, rate) / per_force * std::abs(torque) / normal_force;
+  return face.mean(mu) / per_force * std::abs(torque) / normal_force;
 }
 
 } // namespace tribogel
