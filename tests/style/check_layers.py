@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Holds the architecture: a folder includes only folders to its left, siblings do not include each other, and include/
-knows neither PETSc nor MPI.
+"""Holds the architecture: a folder includes only folders to its left, siblings do not include each other, and
+include/ knows neither PETSc nor MPI.
 
   tests/style/check_layers.py [REPOSITORY]
 
@@ -29,12 +29,14 @@ LAYERS = (
 LEVEL = {folder: level for level, group in enumerate(LAYERS) for folder in group}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 MACHINE_NAME = re.compile(r"\b(Petsc[A-Z]\w*|PETSC_\w+|MPI_\w+|H5[A-Z]\w+)\b")
-# What physics may include besides itself: the standard library (no dot, no slash), Eigen and header-only Boost.
+# What physics may include besides itself: the standard library (no dot, no slash), Eigen and header-only
+# Boost.
 PHYSICS_MAY_INCLUDE = re.compile(r"^([a-z_0-9]+|(Eigen|boost)/.+)$")
 
 
 def without_comments(text):
-    """The text with comments and string literals blanked, line numbers kept. Include lines stay as they are."""
+    """The text with comments and string literals blanked, line numbers kept. Include lines stay as they
+    are."""
     pattern = re.compile(r'//[^\n]*|/\*.*?\*/|(?<!include )"(?:\\.|[^"\\\n])*"', re.S)
     return pattern.sub(lambda found: re.sub(r"[^\n]", " ", found.group()), text)
 

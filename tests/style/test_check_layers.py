@@ -35,10 +35,12 @@ class CheckLayers(unittest.TestCase):
         self.assertIn("to its right", line)
 
     def test_physics_may_not_include_machine(self):
-        self.assertIn("to its right", self.only("include/tribogel/contact/node/c.hpp", '#include "mesh/m.hpp"\n'))
+        self.assertIn("to its right",
+                      self.only("include/tribogel/contact/node/c.hpp", '#include "mesh/m.hpp"\n'))
 
     def test_siblings(self):
-        self.assertIn("siblings", self.only("include/tribogel/material/o.hpp", '#include "tribogel/friction/f.hpp"\n'))
+        self.assertIn("siblings",
+                      self.only("include/tribogel/material/o.hpp", '#include "tribogel/friction/f.hpp"\n'))
 
     def test_physics_without_machine(self):
         self.assertIn("physics", self.only("include/tribogel/math/b.hpp", "#include <petscvec.h>\n"))
@@ -46,7 +48,8 @@ class CheckLayers(unittest.TestCase):
         self.assertIn("PetscReal", self.only("include/tribogel/math/b.hpp", "inline PetscReal f();\n"))
 
     def test_comments_are_not_code(self):
-        self.assertEqual(self.broken({**self.base, "include/tribogel/math/b.hpp": "// a PetscReal\n/* MPI_Comm */\n"}), [])
+        self.assertEqual(self.broken({**self.base,
+                                      "include/tribogel/math/b.hpp": "// a PetscReal\n/* MPI_Comm */\n"}), [])
 
     def test_unknown_folder_and_file(self):
         self.assertIn("in no layer", self.only("src/misc/x.cpp", "int x;\n"))

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""tools/disc_mesh.py makes the meshes of `-model solid -mesh_grading 1`: as many unknowns as the program, right-handed
-cells, faces on their planes, rims on their circles, the volumes of what the elements can represent."""
+"""The tools' disc_mesh makes the meshes of `-model solid -mesh_grading 1`: as many unknowns as the program,
+right-handed cells, faces on their planes, rims on their circles, the volumes of what the elements can
+represent."""
 import json
 import math
 import pathlib
@@ -13,7 +14,7 @@ import numpy
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
-import disc_mesh  # noqa: E402
+from tribogel_tools.peers import disc_mesh  # noqa: E402
 
 PROGRAM = sys.argv.pop(1)
 SCENE = {"top_radius": 10.0, "top_height": 3.0, "bottom_radius": 12.5, "bottom_height": 3.0, "approach": 0.6}
@@ -28,7 +29,8 @@ def volume(body):
     for x in GAUSS[0]:
         N = [numpy.prod([(x - nodes[j]) / (nodes[i] - nodes[j]) for j in range(order + 1) if j != i])
              for i in range(order + 1)]
-        D = [sum(numpy.prod([(x - nodes[j]) / (nodes[i] - nodes[j]) for j in range(order + 1) if j not in (i, k)])
+        D = [sum(numpy.prod([(x - nodes[j]) / (nodes[i] - nodes[j]) for j in range(order + 1)
+                             if j not in (i, k)])
                  / (nodes[i] - nodes[k]) for k in range(order + 1) if k != i) for i in range(order + 1)]
         shapes.append((numpy.array(N), numpy.array(D)))
     X = body.nodes[body.cells]
@@ -48,10 +50,12 @@ class DiscMesh(unittest.TestCase):
     def test_as_many_unknowns_as_the_program(self):
         for order, elements in ((1, 2), (1, 4), (1, 5), (2, 2), (2, 3)):
             with self.subTest(order=order, elements=elements), tempfile.TemporaryDirectory() as directory:
-                subprocess.run([PROGRAM, "-options_file", ROOT / "options" / "solid" / "two_cylinders.opts", "-model", "solid",
-                                "-element_order", str(order), "-elements_radial", str(elements), "-friction_law", "none",
-                                "-schedule_end_times", "1", "-schedule_approach", "0.6", "-schedule_twists", "0",
-                                "-output_directory", directory, "-overwrite", "-ts_max_steps", "1"],
+                subprocess.run([PROGRAM, "-options_file", ROOT / "options" / "solid" / "two_cylinders.opts",
+                                "-model", "solid",
+                                "-element_order", str(order), "-elements_radial", str(elements),
+                                "-friction_law", "none", "-schedule_end_times", "1", "-schedule_approach",
+                                "0.6", "-schedule_twists", "0", "-output_directory", directory, "-overwrite",
+                                "-ts_max_steps", "1"],
                                check=False, capture_output=True)
                 summary = json.loads((pathlib.Path(directory) / "summary.json").read_text(encoding="utf-8"))
                 bottom, top = disc_mesh.two_cylinders(SCENE, elements, order)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""src/PAPER.md keeps its word: each numbered equation has a file and a test that exist, each table and figure a place, each
-doubt a choice."""
+"""src/PAPER.md keeps its word: each numbered equation has a file and a test that exist, each table and figure
+a place, each doubt a choice."""
 import pathlib
 import re
 import unittest
@@ -8,8 +8,8 @@ import unittest
 ROOT = pathlib.Path(__file__).parents[2]
 PAGE = (ROOT / "src" / "PAPER.md").read_text(encoding="utf-8")
 NUMBERED = {2: 3, 3: 13, 4: 10}  # section of the paper: its last equation
-DOUBTS = (r"\(3\.11\) lacks a factor R", "Units of Table 1", "Units of the viscosities", "Bulk modulus of the branch",
-          "Unit of the sliding speed", "Heights and approach", "Mesh and steps")
+DOUBTS = (r"\(3\.11\) lacks a factor R", "Units of Table 1", "Units of the viscosities",
+          "Bulk modulus of the branch", "Unit of the sliding speed", "Heights and approach", "Mesh and steps")
 
 
 def rows(title):
@@ -39,7 +39,8 @@ class Page(unittest.TestCase):
             files = re.findall(r"`([\w/]+\.(?:hpp|cpp))`", row[2])
             self.assertTrue(files, row)
             for file in files:
-                self.assertTrue((ROOT / "include" / "tribogel" / file).is_file() or (ROOT / "src" / file).is_file(), file)
+                self.assertTrue((ROOT / "include" / "tribogel" / file).is_file()
+                                or (ROOT / "src" / file).is_file(), file)
             self.assertTrue(re.search(r"`test_\w+`", row[3]), row)
         for test in re.findall(r"`(test_\w+)`", PAGE):
             self.assertIn(test, tests)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""profile.csv as a scientist reads it: who integrates the pressure of the face's rows over the deformed radius gets N,
-and the surfaces do not pass through one another.
+"""profile.csv as a scientist reads it: who integrates the pressure of the face's rows over the deformed
+radius gets N, and the surfaces do not pass through one another.
 
   test_profile.py TRIBOGEL [unittest's arguments]
 """
@@ -16,7 +16,8 @@ import sys
 import tempfile
 import unittest
 
-PRESSED = ["-elements_radial", "8", "-schedule_end_times", "27", "-schedule_approach", "0.79", "-schedule_rates", "0"]
+PRESSED = ["-elements_radial", "8", "-schedule_end_times", "27", "-schedule_approach", "0.79",
+           "-schedule_rates", "0"]
 ARGUMENTS = None
 
 
@@ -39,7 +40,8 @@ def run_program(*words):
         subprocess.run(command, cwd=folder, check=True, capture_output=True, timeout=300)
         with open(pathlib.Path(folder, "run", "profile.csv"), newline="", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
-        end = json.loads(pathlib.Path(folder, "run", "summary.json").read_text(encoding="utf-8"))["phases"][-1]
+        end = json.loads(pathlib.Path(folder, "run",
+                                      "summary.json").read_text(encoding="utf-8"))["phases"][-1]
     return rows, end
 
 
@@ -65,23 +67,27 @@ class Profile(unittest.TestCase):
         self.assertGreater(len(walls), 0)
         self.assertEqual({row["part"] for row in rows}, {"face", "wall"})
         for row in rows:
-            self.assertEqual(row["part"] == "wall", row["surface"] == "top" and float(row["reference_z_mm"]) > 0)
+            self.assertEqual(row["part"] == "wall",
+                             row["surface"] == "top" and float(row["reference_z_mm"]) > 0)
         self.assertEqual({float(row["reference_r_mm"]) for row in walls}, {10.0})
 
     def test_surfaces_meet_on_the_axis(self):
-        """Elements of order 2 have no contact condition there, and the two gels' nodes pass through one another by 4
-        micrometres on this mesh, either as far. Order 1, which has one, says where the surfaces are."""
+        """Elements of order 2 have no contact condition there, and the two gels' nodes pass through one
+        another by 4 micrometres on this mesh, either as far. Order 1, which has one, says where the surfaces
+        are."""
         rows, end = run_program(*PRESSED, "-element_order", "2")
         top, bottom = (self.numbers(rows, surface, "z_mm") for surface in ("top", "bottom"))
         self.assertLess(abs(top[0] - bottom[0]), 1e-4)
         self.assertEqual(end["bottom_surface_centre_displacement_mm"], -bottom[0])
         _, fine = run_program(*PRESSED, "-element_order", "1", "-elements_radial", "24")
-        self.assertLess(abs(end["bottom_surface_centre_displacement_mm"] - fine["bottom_surface_centre_displacement_mm"]),
+        self.assertLess(abs(end["bottom_surface_centre_displacement_mm"]
+                            - fine["bottom_surface_centre_displacement_mm"]),
                         2e-4)
 
     def test_in_space(self):
-        rows, _ = run_program("-model", "solid", "-element_order", "1", "-elements_radial", "2", "-schedule_end_times", "1",
-                              "-schedule_approach", "0.05", "-schedule_rates", "0")
+        rows, _ = run_program("-model", "solid", "-element_order", "1", "-elements_radial", "2",
+                              "-schedule_end_times", "1", "-schedule_approach", "0.05", "-schedule_rates",
+                              "0")
         self.assertEqual({row["part"] for row in rows if row["surface"] == "bottom"}, {"face"})
         for row in rows:
             if row["surface"] == "top":
@@ -90,7 +96,8 @@ class Profile(unittest.TestCase):
 
 def main():
     global ARGUMENTS
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("tribogel", type=lambda path: str(pathlib.Path(path).resolve()))
     ARGUMENTS, rest = parser.parse_known_args()
     os.environ.pop("PETSC_OPTIONS", None)

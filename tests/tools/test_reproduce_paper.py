@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""tools/reproduce-paper: one command leaves a report that needs nothing else, with every figure of the paper; its formulas are
-the program's.
+"""tools/reproduce-paper: one command leaves a report that needs nothing else, with every figure of the paper;
+its formulas are the program's.
 
   test_reproduce_paper.py TRIBOGEL [unittest's own arguments]
 """
@@ -19,12 +19,12 @@ import numpy as np
 
 TOOLS = pathlib.Path(__file__).parents[2] / "tools"
 sys.path.insert(0, str(TOOLS))
-from paper import rheometer, runs  # noqa: E402
-from paper.values import Results, Value  # noqa: E402
+from tribogel_tools.paper import rheometer, runs  # noqa: E402
+from tribogel_tools.paper.values import Results, Value  # noqa: E402
 
 PROGRAM = None
-FIGURES = ("fig05", "fig06", "fig07", "fig08", "fig09", "fig10", "fig12", "findings", "doubts", "errors", "energy", "profiles",
-           "fits", "readings")
+FIGURES = ("fig05", "fig06", "fig07", "fig08", "fig09", "fig10", "fig12", "findings", "doubts", "errors",
+           "energy", "profiles", "fits", "readings")
 
 
 class Page(html.parser.HTMLParser):
@@ -66,7 +66,8 @@ class Report(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.output = pathlib.Path(cls.folder.name, "report")
         cls.done = cls.command()
-        cls.source = (cls.output / "report.html").read_text(encoding="utf-8") if not cls.done.returncode else ""
+        cls.source = (cls.output
+                      / "report.html").read_text(encoding="utf-8") if not cls.done.returncode else ""
         cls.page = Page(cls.source)
 
     @classmethod
@@ -75,7 +76,8 @@ class Report(unittest.TestCase):
 
     @classmethod
     def command(cls, *more):
-        return subprocess.run([TOOLS / "reproduce-paper", "--quick", "--program", PROGRAM, "--output", cls.output, *more],
+        return subprocess.run([TOOLS / "reproduce-paper", "--quick", "--program", PROGRAM, "--output",
+                               cls.output, *more],
                               capture_output=True, text=True, check=False)
 
     def test_one_command_says_where_how_long_and_what_it_cost(self):
@@ -133,8 +135,10 @@ class Report(unittest.TestCase):
             for phase in (3, 4, 5):
                 rate, T, N = run.rates()[phase - 1], run.torque(phase), run.force(phase)
                 expected = run.end(phase, "mu_apparent")
-                self.assertAlmostEqual(rheometer.apparent(*run.law, run.radius, rate, T, N) / expected, 1, places=12)
-                self.assertAlmostEqual(rheometer.gong(run.radius, T, N) / run.end(phase, "mu_gong"), 1, places=12)
+                self.assertAlmostEqual(rheometer.apparent(*run.law, run.radius, rate, T, N) / expected, 1,
+                                       places=12)
+                self.assertAlmostEqual(rheometer.gong(run.radius, T, N) / run.end(phase, "mu_gong"), 1,
+                                       places=12)
 
     def test_the_simulated_contact_gives_nearly_the_planar_torque(self):
         run = Results(self.output, runs.QUICK).shown("fig06")
@@ -156,10 +160,12 @@ class Fit(unittest.TestCase):
         r = (np.arange(20000) + 0.5) / 20000 * radius
         mu, ring = rheometer.coefficient(b, m, rate * r), 2 * r / radius**2 * radius / 20000
         self.assertAlmostEqual(rheometer.force_ratio(b, m, radius, rate) / np.sum(mu * ring), 1, places=7)
-        self.assertAlmostEqual(rheometer.torque_ratio(b, m, radius, rate) / np.sum(mu * ring * r), 1, places=7)
+        self.assertAlmostEqual(rheometer.torque_ratio(b, m, radius, rate) / np.sum(mu * ring * r), 1,
+                               places=7)
 
     def test_no_coefficient_is_negative(self):
-        ratios = rheometer.torque_basis(1, 10, self.rates) - 0.3 * rheometer.torque_basis(2, 10, self.rates) / 40
+        linear, square = (rheometer.torque_basis(m, 10, self.rates) for m in (1, 2))
+        ratios = linear - 0.3 * square / 40
         b = rheometer.fit((0, 1, 2), 10, self.rates, ratios)
         self.assertTrue((b >= 0).all() and b[1] > 0, b)
         free = np.linalg.norm(rheometer.torque_ratio(b, (0, 1, 2), 10, self.rates) - ratios)
@@ -167,7 +173,8 @@ class Fit(unittest.TestCase):
             for change in (1e-4, -1e-4):
                 moved = b.copy()
                 moved[k] = max(0, moved[k] + change * b.max())
-                self.assertGreaterEqual(np.linalg.norm(rheometer.torque_ratio(moved, (0, 1, 2), 10, self.rates) - ratios), free)
+                self.assertGreaterEqual(np.linalg.norm(rheometer.torque_ratio(moved, (0, 1, 2), 10,
+                                                                              self.rates) - ratios), free)
 
 
 class Text(unittest.TestCase):

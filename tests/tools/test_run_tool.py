@@ -35,7 +35,8 @@ class RunTool(unittest.TestCase):
     def start(self, *words, status=0, **variables):
         environment = {name: value for name, value in os.environ.items() if name != "PETSC_OPTIONS"}
         environment.update(variables, HOME=str(self.directory), OMPI_MCA_ess_singleton_isolated="1")
-        done = subprocess.run([TOOL, "--program", ARGUMENTS.tribogel, *words], cwd=self.directory, env=environment,
+        done = subprocess.run([TOOL, "--program", ARGUMENTS.tribogel, *words], cwd=self.directory,
+                              env=environment,
                               capture_output=True, text=True, timeout=300, check=False)
         self.assertEqual(done.returncode, status, f"{words}\n{done.stdout}\n{done.stderr}")
         return done
@@ -44,7 +45,8 @@ class RunTool(unittest.TestCase):
         return (self.directory / name / "history.csv").read_text().splitlines()[1:]
 
     def test_a_run_that_was_stopped_goes_on(self):
-        stopped = subprocess.run([ARGUMENTS.tribogel, "-options_file", "scene.opts", "-ts_max_steps", "1", "-output_directory",
+        stopped = subprocess.run([ARGUMENTS.tribogel, "-options_file", "scene.opts", "-ts_max_steps", "1",
+                                  "-output_directory",
                                   "mine"], cwd=self.directory, capture_output=True, timeout=300, check=False)
         self.assertEqual(stopped.returncode, 3)
         done = self.start("-restart", "mine", "-ts_max_steps", "9")
@@ -62,7 +64,8 @@ class RunTool(unittest.TestCase):
         for words, variables in ((["scene.opts", "-output_directory", "mine"], {}),
                                  (["scene.opts", "-options_file", "place.opts"], {}), (["outer.opts"], {}),
                                  (["scene.opts"], {"PETSC_OPTIONS": "-output_directory mine"})):
-            self.assertIn("-output_directory = mine: holds a run", self.start(*words, status=2, **variables).stderr)
+            self.assertIn("-output_directory = mine: holds a run",
+                          self.start(*words, status=2, **variables).stderr)
         self.assertEqual((self.directory / "mine" / "history.csv").read_text(), "an older run\n")
         (self.directory / "tribogel-output").mkdir()
         (self.directory / "tribogel-output" / "history.csv").write_text("an older run\n")

@@ -1,12 +1,11 @@
 #!/usr/bin/python3
-"""tools/scaling: powers that are known, the model's terms by hand, efficiencies of made-up runs, a study on tiny meshes.
+"""tools/scaling: powers that are known, the model's terms by hand, efficiencies of made-up runs, a study on
+tiny meshes.
 
   test_scaling.py TRIBOGEL [--mpirun MPIRUN]
 """
 import contextlib
 import csv
-import importlib.machinery
-import importlib.util
 import io
 import math
 import pathlib
@@ -20,28 +19,25 @@ import unittest.mock
 sys.dont_write_bytecode = True
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "tools"))
-import cost_model  # noqa: E402
-import logged_run  # noqa: E402
-import scaling_report  # noqa: E402
+from tribogel_tools.cost import cost_model, logged_run, scaling, scaling_report  # noqa: E402
 
-loader = importlib.machinery.SourceFileLoader("scaling", str(REPOSITORY / "tools" / "scaling"))
-tool = importlib.util.module_from_spec(importlib.util.spec_from_loader("scaling", loader))
-loader.exec_module(tool)
 PROGRAM, MPIRUN = None, "mpirun"
 
 
 def made_up(ranks, dofs, newton, seconds, solves=None, linear=0.0, memory=100.0):
     """A run whose Newton iterations take these seconds altogether, of them the linear solver this many."""
-    run = types.SimpleNamespace(ranks=ranks, counts={"unknowns": dofs, "linear_iterations": 63, "newton_iterations": 9},
-                                cost={"peak_memory_MB": memory}, cpu=3.0 * seconds, summary={"options": {"model": "solid"}})
+    run = types.SimpleNamespace(ranks=ranks,
+                                counts={"unknowns": dofs, "linear_iterations": 63, "newton_iterations": 9},
+                                cost={"peak_memory_MB": memory}, cpu=3.0 * seconds,
+                                summary={"options": {"model": "solid"}})
     run.events = {"SNESSolve": logged_run.Event(2, seconds, 1e6, 60.0, 9000.0, 30.0),
                   "KSPSolve": logged_run.Event(solves or newton, 0.75 * linear, 0, 0, 0, 0),
                   "SNESLineSearch": logged_run.Event(newton, 0, 0, 0, 0, 0),
                   "PCSetUp": logged_run.Event(newton, 0.25 * linear, 0, 0, 0, 0)}
     for name in ("event", "seconds"):
-        setattr(run, name, getattr(logged_run.Run, name).__get__(run))
+        setattr(run, name, getattr(logged_run.LoggedRun, name).__get__(run))
     for name in ("newton", "newton_seconds", "linear_seconds", "rest_of_newton"):
-        setattr(run, name, getattr(logged_run.Run, name).fget(run))
+        setattr(run, name, getattr(logged_run.LoggedRun, name).fget(run))
     return run
 
 
@@ -74,14 +70,17 @@ class TheModel(unittest.TestCase):
     machine = cost_model.Machine(latency=3e-6, bandwidth=2e9, neighbours=5)
 
     def model(self, traffic):
-        return cost_model.Model(cost_model.Power(4e-5, 1.1, 0), cost_model.Power(6, 0.05, 0), traffic, self.machine, 3)
+        return cost_model.Model(cost_model.Power(4e-5, 1.1, 0), cost_model.Power(6, 0.05, 0), traffic,
+                                self.machine, 3)
 
     def test_terms_by_hand(self):
-        model = self.model(cost_model.Traffic(ranks=2, dofs=1000, iterations=8, messages=20, bytes=4e5, reductions=30))
+        model = self.model(cost_model.Traffic(ranks=2, dofs=1000, iterations=8, messages=20, bytes=4e5,
+                                              reductions=30))
         more = (64000 / 1000) ** 0.05
         compute, latency, moved = model.parts(64000, 16)
         self.assertAlmostEqual(compute, 4e-5 * 64000 ** 1.1 / 16, delta=1e-12)
-        self.assertAlmostEqual(latency, 3e-6 * (10 * 5 + 2 * 4 * 30) * more, delta=1e-15)  # one neighbour measured, five here
+        # one neighbour measured, five here
+        self.assertAlmostEqual(latency, 3e-6 * (10 * 5 + 2 * 4 * 30) * more, delta=1e-15)
         self.assertAlmostEqual(moved, 2e5 * 5 * (4000 / 500) ** (2 / 3) * more / 2e9, delta=1e-15)
         self.assertAlmostEqual(model.seconds(64000, 16), compute + latency + moved, delta=1e-15)
         self.assertEqual(model.parts(64000, 1)[1:], (0, 0))
@@ -103,7 +102,8 @@ class Report(unittest.TestCase):
         self.assertAlmostEqual(scaling_report.efficiency(self.one, self.two), 2 / (2 * 1.25), delta=1e-14)
 
     def test_weak_efficiency_is_per_dof(self):
-        self.assertAlmostEqual(scaling_report.weak_efficiency(self.one, made_up(2, 17000, 10, 25.0)), 2 / 8000 / (5 / 17000), delta=1e-14)
+        self.assertAlmostEqual(scaling_report.weak_efficiency(self.one, made_up(2, 17000, 10, 25.0)),
+                               2 / 8000 / (5 / 17000), delta=1e-14)
 
     def test_solves_outside_newton_do_not_count(self):
         run = made_up(1, 8000, 10, 20.0, solves=12, linear=6.0)
@@ -119,8 +119,9 @@ class Report(unittest.TestCase):
 
     def test_what_is_residual_and_jacobian_is_not_the_solver(self):
         run = made_up(1, 8000, 10, 20.0, linear=17.0)  # an inner set-up counted twice
-        run.events |= {"SNESFunctionEval": logged_run.Event(12, 1.5, 0, 0, 0, 0), "SNESJacobianEval": logged_run.Event(10, 6.5, 0, 0, 0, 0)}
-        self.assertAlmostEqual(logged_run.Run.linear_seconds.fget(run), 12, delta=1e-12)
+        run.events |= {"SNESFunctionEval": logged_run.Event(12, 1.5, 0, 0, 0, 0),
+                       "SNESJacobianEval": logged_run.Event(10, 6.5, 0, 0, 0, 0)}
+        self.assertAlmostEqual(logged_run.LoggedRun.linear_seconds.fget(run), 12, delta=1e-12)
 
     def test_what_it_must_state(self):
         runs = {(1, k): made_up(1, n, 10, 1e-3 * n ** 1.25, linear=5e-4 * n ** 1.25, memory=40 + 5e-3 * n)
@@ -138,14 +139,16 @@ class Study(unittest.TestCase):
     def test_the_cheapest_of_those_repeated_counts(self):
         runs = [types.SimpleNamespace(status=status, cpu=cpu, failure="", newton_seconds=1.0, counts={})
                 for status, cpu in ((3, 0.5), (0, 2.5), (0, 1.5), (0, 3.5))]
-        a = tool.parse(["--repeats", "4"])
-        study = tool.Study(a, "program")
-        with unittest.mock.patch.object(tool, "Run", side_effect=runs), contextlib.redirect_stderr(io.StringIO()):
+        a = scaling.parse(["--repeats", "4"])
+        study = scaling.Study(a, "program")
+        with unittest.mock.patch.object(scaling, "LoggedRun",
+                                        side_effect=runs), contextlib.redirect_stderr(io.StringIO()):
             study.run(1, 6)
         self.assertIs(study.runs[1, 6], runs[2])
 
     def scaling(self, *words):
-        return subprocess.run([REPOSITORY / "tools" / "scaling", "--program", PROGRAM, "--mpirun", MPIRUN, *map(str, words)],
+        return subprocess.run([REPOSITORY / "tools" / "scaling", "--program", PROGRAM, "--mpirun", MPIRUN,
+                               *map(str, words)],
                               capture_output=True, text=True, check=False)
 
     def test_a_tiny_study(self):
@@ -154,27 +157,31 @@ class Study(unittest.TestCase):
             triad = pathlib.Path(directory) / "triad"
             triad.write_text('#!/bin/sh\necho \'{"benchmarks": [{"B/s": 8e9}]}\'\n', encoding="utf-8")
             triad.chmod(0o755)
-            done = self.scaling(REPOSITORY / "options" / "quick.opts", "--elements", "2,3", "--weak", "1:2,2:3", "--triad", triad,
-                                "--output", out, "--", "-schedule_kind", "steady", "-element_order", "1")
+            done = self.scaling(REPOSITORY / "options" / "quick.opts", "--elements", "2,3", "--weak",
+                                "1:2,2:3", "--triad", triad, "--output", out, "--", "-schedule_kind",
+                                "steady", "-element_order", "1")
             self.assertEqual(done.returncode, 0, done.stderr)
             with open(out / "scaling.csv", encoding="utf-8", newline="") as file:
                 rows = list(csv.DictReader(file))
             text = (out / "scaling.md").read_text(encoding="utf-8")
             for kind in ("png", "pdf"):
                 self.assertGreater((out / f"scaling.{kind}").stat().st_size, 1000)
-        self.assertEqual({(row["elements"], row["ranks"]) for row in rows}, {("2", "1"), ("2", "2"), ("3", "1"), ("3", "2")})
+        self.assertEqual({(row["elements"], row["ranks"]) for row in rows},
+                         {("2", "1"), ("2", "2"), ("3", "1"), ("3", "2")})
         solves = {row["ranks"]: row for row in rows if row["event"] == "SNESSolve" and row["elements"] == "3"}
         self.assertEqual(solves["1"]["newton"], solves["2"]["newton"])
         self.assertEqual(float(solves["1"]["messages"]), 0)
         self.assertGreater(float(solves["2"]["messages"]), 0)
         self.assertGreater(int(rows[-1]["dofs"]), int(rows[0]["dofs"]))
         self.assertIn("2 at once 16.0 GB/s, 2.00 times one core's", text)
-        for part in ("Strong scaling", "Weak scaling", "GelBulkJacobian", "memory bandwidth", "Cost of a Newton iteration ~ dofs^"):
+        for part in ("Strong scaling", "Weak scaling", "GelBulkJacobian", "memory bandwidth",
+                     "Cost of a Newton iteration ~ dofs^"):
             self.assertIn(part, text)
 
     def test_runs_that_fail_are_said_and_nonsense_is_refused(self):
         with tempfile.TemporaryDirectory() as directory:
-            done = self.scaling("--no-triad", "--elements", "2", "--ranks", "1", "--output", directory, "--", "-pc_type", "nosuch")
+            done = self.scaling("--no-triad", "--elements", "2", "--ranks", "1", "--output", directory, "--",
+                                "-pc_type", "nosuch")
             self.assertEqual(done.returncode, 1)
             self.assertIn("nosuch", done.stderr)
         for words in (["--elements", "0"], ["nosuch.opts"], ["--weak", "1"], ["--neighbours", "0"]):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""tools/sensitivity: differences of known functions; sums of sensitivities that dimensions prescribe, on a tiny mesh; what is
-refused, what fails.
+"""tools/sensitivity: differences of known functions; sums of sensitivities that dimensions prescribe, on a
+tiny mesh; what is refused, what fails.
 
   test_sensitivity_tool.py TRIBOGEL
 """
@@ -15,7 +15,7 @@ import unittest
 sys.dont_write_bytecode = True
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "tools"))
-import sensitivities  # noqa: E402
+from tribogel_tools.sensitivity import study  # noqa: E402
 
 PROGRAM = None
 SMALL = ["-element_order", "1", "-elements_radial", "6", "-mesh_grading", "2", "-schedule_kind", "steady",
@@ -25,24 +25,25 @@ SMALL = ["-element_order", "1", "-elements_radial", "6", "-mesh_grading", "2", "
 class Numbers(unittest.TestCase):
     def test_central_differences_are_exact_up_to_the_third_power(self):
         step, slope, cubic = 0.04, 1.7, -31.0
-        values = {k: 5 + slope * k * step + 7 * (k * step)**2 + cubic * (k * step)**3 for k in (-1, -0.5, 0, 0.5, 1)}
-        found, error = sensitivities.differences(step, values, True)
+        values = {k: 5 + slope * k * step + 7 * (k * step)**2 + cubic * (k * step)**3
+                  for k in (-1, -0.5, 0, 0.5, 1)}
+        found, error = study.differences(step, values, True)
         self.assertAlmostEqual(found, slope, delta=1e-12)
         self.assertAlmostEqual(error, 0.75 * abs(cubic) * step**2, delta=1e-12)
 
     def test_one_sided_differences_are_exact_for_parabolas(self):
         step, slope = 0.03, -0.9
         values = {k: 2 + slope * k * step + 11 * (k * step)**2 for k in (0, 0.5, 1)}
-        found, error = sensitivities.differences(step, values, False)
+        found, error = study.differences(step, values, False)
         self.assertAlmostEqual(found, slope, delta=1e-12)
         self.assertAlmostEqual(error, 11 * step / 2, delta=1e-12)
 
     def test_what_is_shown(self):
-        self.assertEqual(sensitivities.shown(2.71348, 0.0038), "2.713(4)")
-        self.assertEqual(sensitivities.shown(-0.00001, 0.00002), "0.0000(1)")
-        self.assertEqual(sensitivities.shown(-1.26, 0.2), "-1.3(2)")
-        self.assertEqual(sensitivities.shown(3.4, 7.0), "3(7)")
-        self.assertEqual(sensitivities.shown(math.nan, math.nan), "-")
+        self.assertEqual(study.shown(2.71348, 0.0038), "2.713(4)")
+        self.assertEqual(study.shown(-0.00001, 0.00002), "0.0000(1)")
+        self.assertEqual(study.shown(-1.26, 0.2), "-1.3(2)")
+        self.assertEqual(study.shown(3.4, 7.0), "3(7)")
+        self.assertEqual(study.shown(math.nan, math.nan), "-")
 
 
 class Tool(unittest.TestCase):
@@ -54,7 +55,8 @@ class Tool(unittest.TestCase):
         self.empty.write_text("")
 
     def tool(self, *words, further=SMALL, status=0):
-        done = subprocess.run(["/usr/bin/python3", str(REPOSITORY / "tools" / "sensitivity"), str(self.empty), "--program",
+        done = subprocess.run(["/usr/bin/python3", str(REPOSITORY / "tools" / "sensitivity"),
+                               str(self.empty), "--program",
                                PROGRAM, "--output", str(self.folder / "study"), *words, "--", *further],
                               capture_output=True, text=True, timeout=500, check=False)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
@@ -62,7 +64,8 @@ class Tool(unittest.TestCase):
 
     def numbers(self):
         with open(self.folder / "study" / "sensitivity.csv", newline="", encoding="utf-8") as file:
-            return {(row["parameter"], row["quantity"], int(row["phase"])): (float(row["sensitivity"]), float(row["error"]))
+            return {(row["parameter"], row["quantity"], int(row["phase"])): (float(row["sensitivity"]),
+                                                                             float(row["error"]))
                     for row in csv.DictReader(file)}
 
     def test_sums_that_dimensions_prescribe(self):
@@ -75,7 +78,8 @@ class Tool(unittest.TestCase):
             pairs = [found[name, quantity, 2] for name in names]
             return sum(value for value, _ in pairs), sum(error for _, error in pairs)
 
-        for names, quantity, expected in ((lengths, "N", 2), (lengths, "T", 4), (("G equilibrium", "K"), "N", 1)):
+        for names, quantity, expected in ((lengths, "N", 2), (lengths, "T", 4),
+                                          (("G equilibrium", "K"), "N", 1)):
             value, error = total(names, quantity)
             self.assertLess(abs(value - expected), 1e-4 + error, (names, quantity, value, error))
             self.assertLess(error, 0.01)

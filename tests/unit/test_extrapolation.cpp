@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <sstream>
+#include <string>
 #include <utility>
 
 namespace tribogel
@@ -131,13 +134,49 @@ TEST(Extrapolation, OfAKnownOrderNeedsTwoLevels)
   EXPECT_EQ(extrapolate_with(order, fine, {4, fine.value}).verdict, Convergence::settled);
 }
 
-/// Nested meshes of tests/README.md, which tools/extrapolate.py judged: 0.114421 +- 0.000015 N mm, order 1.0.
-TEST(Extrapolation, AgreesWithTheTools)
+std::vector<std::string> split(const std::string &text, char at)
 {
-  const Extrapolation torque = halved({0.1143706, 0.1143964, 0.1144090});
-  EXPECT_NEAR(torque.limit, 0.114421, 1e-6);
-  EXPECT_NEAR(torque.error, 1.5e-5, 1e-6);
-  EXPECT_NEAR(torque.order, 1.0, 0.05);
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, at);) {
+    const std::size_t first = part.find_first_not_of(' '), last = part.find_last_not_of(' ');
+    parts.push_back(first == std::string::npos ? "" : part.substr(first, last - first + 1));
+  }
+  return parts;
+}
+
+void expect_same(double found, const std::string &text, double tolerance)
+{
+  const double expected = std::stod(text);
+  if (std::isnan(expected))
+    EXPECT_TRUE(std::isnan(found)) << found;
+  else
+    EXPECT_NEAR(found, expected, tolerance);
+}
+
+/// The table that the tools are held to as well.
+TEST(Extrapolation, IsThatOfTheTools)
+{
+  std::ifstream file(TRIBOGEL_EXTRAPOLATION_CASES);
+  int cases = 0;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    SCOPED_TRACE(line);
+    const std::vector<std::string> cells = split(line, '|');
+    ASSERT_EQ(cells.size(), 7);
+    const std::vector<std::string> sizes = split(cells[0], ','), values = split(cells[1], ',');
+    ASSERT_EQ(sizes.size(), values.size());
+    std::vector<Level> levels;
+    for (std::size_t k = 0; k < sizes.size(); ++k)
+      levels.push_back({std::stod(sizes[k]), std::stod(values[k])});
+    const Extrapolation found = extrapolate(levels, std::stod(cells[2]));
+    EXPECT_EQ(convergence_names[static_cast<int>(found.verdict)], cells[3]);
+    expect_same(found.limit, cells[4], 1e-6);
+    expect_same(found.error, cells[5], 1e-6 * (1 + found.error));
+    expect_same(found.order, cells[6], 1e-6);
+    ++cases;
+  }
+  EXPECT_EQ(cases, 16);
 }
 
 /// The paper scene, order 2, 6 to 24 elements (steady N, limit 290.4435): meshes of whole numbers of edges

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""-error_estimate: companions run after the run and leave its files alone; what has no companion, is stopped or fails is said,
-and the run's own status stays.
+"""-error_estimate: companions run after the run and leave its files alone; what has no companion, is stopped
+or fails is said, and the run's own status stays.
 
   test_error_option.py TRIBOGEL --mpirun MPIRUN [unittest's arguments]
 """
@@ -30,10 +30,12 @@ class ErrorOption(unittest.TestCase):
 
     def command(self, name, words, ranks=1):
         launcher = [ARGUMENTS.mpirun, "-q", "-n", str(ranks)] if ranks > 1 else []
-        return [*launcher, ARGUMENTS.tribogel, "-skip_petscrc", *words, "-output_directory", str(self.folder / name)]
+        return [*launcher, ARGUMENTS.tribogel, "-skip_petscrc", *words, "-output_directory",
+                str(self.folder / name)]
 
     def run_program(self, name, words, ranks=1, status=0):
-        done = subprocess.run(self.command(name, words, ranks), cwd=self.folder, capture_output=True, text=True,
+        done = subprocess.run(self.command(name, words, ranks), cwd=self.folder, capture_output=True,
+                              text=True,
                               timeout=300, check=False)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done
@@ -49,7 +51,8 @@ class ErrorOption(unittest.TestCase):
         self.run_program("plain", SCENE)
         done = self.run_program("asked", SCENE + ASKED)
         for file in ("history.csv", "profile.csv"):
-            self.assertEqual((self.folder / "plain" / file).read_bytes(), (self.folder / "asked" / file).read_bytes())
+            self.assertEqual((self.folder / "plain" / file).read_bytes(),
+                             (self.folder / "asked" / file).read_bytes())
         self.assertEqual({path.name for path in (self.folder / "plain").iterdir()},
                          {path.name for path in (self.folder / "asked").iterdir()})
         plain, asked = self.summary("plain"), self.summary("asked")
@@ -84,8 +87,9 @@ class ErrorOption(unittest.TestCase):
             self.assertLess(error[1], 1e-3 * error[0])  # Newton's tolerance
 
     def test_solids_from_a_mesh_file_have_one_in_time_only(self):
-        words = ["-model", "solid", "-mesh_file", str(REPOSITORY / "options" / "solid" / "square.msh"), "-element_order", "1",
-                 "-schedule_end_times", "9", "-schedule_approach", "0.2", "-schedule_rates", "0", "-time_tolerance", "1"]
+        words = ["-model", "solid", "-mesh_file", str(REPOSITORY / "options" / "solid" / "square.msh"),
+                 "-element_order", "1", "-schedule_end_times", "9", "-schedule_approach", "0.2",
+                 "-schedule_rates", "0", "-time_tolerance", "1"]
         self.run_program("file", words + ASKED)
         estimate = self.summary("file")["error_estimate"]
         self.assertIn("-mesh_file", " ".join(estimate["notes"]))
@@ -93,8 +97,10 @@ class ErrorOption(unittest.TestCase):
         self.assertGreater(self.errors("file")[0][1], 0)
 
     def test_solids_have_both(self):
-        self.run_program("solid", ["-model", "solid", "-element_order", "1", "-elements_radial", "4", "-schedule_end_times",
-                                   "9", "-schedule_approach", "0.2", "-schedule_rates", "0", "-time_tolerance", "1"] + ASKED)
+        self.run_program("solid",
+                         ["-model", "solid", "-element_order", "1", "-elements_radial", "4",
+                          "-schedule_end_times", "9", "-schedule_approach", "0.2", "-schedule_rates", "0",
+                          "-time_tolerance", "1"] + ASKED)
         self.assertGreater(min(self.errors("solid")[0][:2]), 0)
 
     def test_steps_without_tolerance_are_named(self):
@@ -119,14 +125,16 @@ class ErrorOption(unittest.TestCase):
         self.run_program("asked", SCENE + ASKED)
         self.run_program("late", SCENE)
         history = (self.folder / "late" / "history.csv").read_bytes()
-        done = subprocess.run([ARGUMENTS.tribogel, "-skip_petscrc", "-restart", "late", *ASKED], cwd=self.folder,
+        done = subprocess.run([ARGUMENTS.tribogel, "-skip_petscrc", "-restart", "late", *ASKED],
+                              cwd=self.folder,
                               capture_output=True, text=True, timeout=300, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((self.folder / "late" / "history.csv").read_bytes(), history)
         self.assertEqual(self.errors("late"), self.errors("asked"))
 
     def test_a_signal_ends_the_companions_and_not_the_status(self):
-        words = ["-options_file", str(REPOSITORY / "options" / "quick.opts"), "-elements_radial", "10", *ASKED]
+        words = ["-options_file", str(REPOSITORY / "options" / "quick.opts"), "-elements_radial", "10",
+                 *ASKED]
         program = subprocess.Popen(self.command("stopped", words), cwd=self.folder, stdout=subprocess.DEVNULL)
         path = self.folder / "stopped" / "summary.json"
         for _ in range(12000):

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""A run whose files cannot be written says so: exit status 3 and one line with the system's reason, whole rows only, and
--restart goes on from the last whole checkpoint to the history of the run that had room. Nor does standard output that
-is full or closed lose a run.
+"""A run whose files cannot be written says so: exit status 3 and one line with the system's reason, whole
+rows only, and -restart goes on from the last whole checkpoint to the history of the run that had room. Nor
+does standard output that is full or closed lose a run.
 
   test_lost_output.py TRIBOGEL --mpirun MPIRUN [unittest's arguments]
 """
@@ -18,7 +18,8 @@ import tempfile
 import time
 import unittest
 
-# One gel, two phases of 10 and 890 rows: history.csv gets longer than checkpoint.h5 was at the end of the first.
+# One gel, two phases of 10 and 890 rows: history.csv gets longer than checkpoint.h5 was at the end of the
+# first.
 LONG = ["-specimens", "bottom", "-element_order", "1", "-elements_radial", "2", "-schedule_end_times", "1,90",
         "-schedule_approach", "0.05,0.1", "-schedule_rates", "0,0", "-ts_adapt_type", "none", "-ts_dt", "0.1"]
 BRIEF = LONG[:-1] + ["1"]
@@ -48,8 +49,10 @@ class LostOutput(unittest.TestCase):
     def run_program(cls, words, limit=None, **streams):
         """`limit`: the most bytes that a file may have."""
         streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **streams}
-        preparation = (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))) if limit is not None else None
-        return subprocess.run([ARGUMENTS.tribogel, "-skip_petscrc"] + words, cwd=cls.folder, text=True, timeout=300,
+        preparation = (lambda: resource.setrlimit(resource.RLIMIT_FSIZE,
+                                                  (limit, limit))) if limit is not None else None
+        return subprocess.run([ARGUMENTS.tribogel, "-skip_petscrc"] + words, cwd=cls.folder, text=True,
+                              timeout=300,
                               errors="backslashreplace", preexec_fn=preparation, check=False, **streams)
 
     def fails(self, done, name, *parts):
@@ -71,7 +74,8 @@ class LostOutput(unittest.TestCase):
         done = self.run_program(["-restart", name])
         self.assertEqual(done.returncode, 0, done.stderr)
         for file in ("history.csv", "profile.csv"):
-            self.assertEqual((self.folder / name / file).read_bytes(), (self.folder / "whole" / file).read_bytes())
+            self.assertEqual((self.folder / name / file).read_bytes(),
+                             (self.folder / "whole" / file).read_bytes())
         self.assertEqual(json.loads((self.folder / name / "summary.json").read_text())["status"], 0)
 
     def test_history_that_cannot_grow(self):
@@ -84,7 +88,8 @@ class LostOutput(unittest.TestCase):
 
     def test_any_limit(self):
         sizes = {path.name: path.stat().st_size for path in (self.folder / "whole").iterdir()}
-        for limit, file in ((100, "history.csv"), (600, "checkpoint.h5.part"), (sizes["summary.json"], "checkpoint.h5.part"),
+        for limit, file in ((100, "history.csv"), (600, "checkpoint.h5.part"),
+                            (sizes["summary.json"], "checkpoint.h5.part"),
                             (sizes["checkpoint.h5"] - 1, None)):
             with self.subTest(limit=limit):
                 name = f"limit{limit}"
@@ -98,7 +103,8 @@ class LostOutput(unittest.TestCase):
 
     def start(self, name, command=()):
         words = LONG + ["-schedule_end_times", "1,300", "-output_directory", name]
-        program = subprocess.Popen([*command, ARGUMENTS.tribogel, "-skip_petscrc"] + words, cwd=self.folder, text=True,
+        program = subprocess.Popen([*command, ARGUMENTS.tribogel, "-skip_petscrc"] + words, cwd=self.folder,
+                                   text=True,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.addCleanup(lambda: program.poll() is None and program.terminate())
         path = self.folder / name / "history.csv"
@@ -121,8 +127,9 @@ class LostOutput(unittest.TestCase):
     def test_two_processes_end_together(self):
         launcher = self.start("two", (ARGUMENTS.mpirun, "-q", "-n", "2"))
         children = pathlib.Path(f"/proc/{launcher.pid}/task/{launcher.pid}/children").read_text().split()
+        name = pathlib.Path(ARGUMENTS.tribogel).name
         ranks = [int(child) for child in children
-                 if pathlib.Path(f"/proc/{child}/comm").read_text().strip() == pathlib.Path(ARGUMENTS.tribogel).name]
+                 if pathlib.Path(f"/proc/{child}/comm").read_text().strip() == name]
         self.assertEqual(len(ranks), 2)
         for rank in ranks:
             resource.prlimit(rank, resource.RLIMIT_FSIZE, (1000, 1000))
@@ -148,7 +155,8 @@ class LostOutput(unittest.TestCase):
         (self.folder / "summary" / "summary.json.part" / "mine").touch()
         done = self.run_program(["-restart", "summary", "-wall_time", "100"])
         self.assertEqual(done.returncode, 3, done.stderr)
-        self.assertIn(f"summary/summary.json.part: {os.strerror(errno.EISDIR)}; the run's other files are whole", done.stderr)
+        self.assertIn(f"summary/summary.json.part: {os.strerror(errno.EISDIR)}; the run's other files are "
+                      "whole", done.stderr)
         self.assertEqual(len(rows_of(self.folder / "summary")), 91)
         (self.folder / "summary" / "summary.json.part" / "mine").unlink()
         (self.folder / "summary" / "summary.json.part").rmdir()
@@ -162,7 +170,8 @@ class LostOutput(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr.count("\n")), (0, 1), done.stderr)
             self.assertIn("tribogel: warning: standard output", done.stderr)
             done = self.run_program(["-help"], stdout=full)
-            self.assertEqual((done.returncode, done.stderr), (3, f"tribogel: error: standard output: {NO_SPACE}\n"))
+            self.assertEqual((done.returncode, done.stderr),
+                             (3, f"tribogel: error: standard output: {NO_SPACE}\n"))
         reading, writing = os.pipe()
         os.close(reading)
         done = self.run_program(BRIEF + ["-output_directory", "pipe"], stdout=writing)
@@ -171,12 +180,14 @@ class LostOutput(unittest.TestCase):
         self.assertIn("tribogel: warning: standard output", done.stderr)
         # Closed from the start: the next file that is opened would get its number.
         words = " ".join(BRIEF)
-        done = subprocess.run(f"'{ARGUMENTS.tribogel}' {words} -output_directory closed >&- 2>&- <&-", shell=True,
+        done = subprocess.run(f"'{ARGUMENTS.tribogel}' {words} -output_directory closed >&- 2>&- <&-",
+                              shell=True,
                               cwd=self.folder, check=False)
         self.assertEqual(done.returncode, 0)
         for name in ("pipe", "closed"):
             for file in ("history.csv", "profile.csv"):
-                self.assertEqual((self.folder / name / file).read_bytes(), (self.folder / "full" / file).read_bytes())
+                self.assertEqual((self.folder / name / file).read_bytes(),
+                                 (self.folder / "full" / file).read_bytes())
 
     def test_directory_whose_name_is_no_text(self):
         """It could not be written into summary.json, which is UTF-8."""
@@ -187,7 +198,8 @@ class LostOutput(unittest.TestCase):
 
 def main():
     global ARGUMENTS
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("tribogel", type=lambda path: str(pathlib.Path(path).resolve()))
     parser.add_argument("--mpirun", required=True)
     ARGUMENTS, rest = parser.parse_known_args()

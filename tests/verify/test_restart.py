@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""A run that was killed at any moment, or asked to stop, goes on with -restart and ends with the history of the run that
-was left alone: no row lost, none doubled, N and T within 1e-10 of their largest values. What is no checkpoint, or another
-scene, is refused in one line and nothing is changed.
+"""A run that was killed at any moment, or asked to stop, goes on with -restart and ends with the history of
+the run that was left alone: no row lost, none doubled, N and T within 1e-10 of their largest values. What is
+no checkpoint, or another scene, is refused in one line and nothing is changed.
 
   test_restart.py TRIBOGEL --mpirun MPIRUN [--kills N] [--seed S] [unittest's arguments]
 
---kills: how many times a run on 2 ranks is killed; 20 make the study of tests/README.md, which the table printed at the
-end belongs to.
+--kills: how many times a run on 2 ranks is killed; 20 make the study of tests/README.md, which the table
+printed at the end belongs to.
 """
 import argparse
 import csv
@@ -32,11 +32,13 @@ ARGUMENTS = None
 
 def command(ranks):
     """The program, by itself or on several ranks; -q spares the launcher's remarks on exit statuses."""
-    return ([ARGUMENTS.mpirun, "-q", "-n", str(ranks)] if ranks > 1 else []) + [ARGUMENTS.tribogel, "-skip_petscrc"]
+    return ([ARGUMENTS.mpirun, "-q", "-n", str(ranks)] if ranks > 1 else []) + [ARGUMENTS.tribogel,
+                                                                                "-skip_petscrc"]
 
 
 def run(ranks, words, folder, status=0):
-    done = subprocess.run(command(ranks) + words, cwd=folder, capture_output=True, text=True, timeout=300, check=False)
+    done = subprocess.run(command(ranks) + words, cwd=folder, capture_output=True, text=True, timeout=300,
+                          check=False)
     if done.returncode != status:
         raise AssertionError(f"status {done.returncode}, not {status}: {words}\n{done.stdout}\n{done.stderr}")
     return done
@@ -73,8 +75,9 @@ def contents(directory):
 def ranks_of(launcher):
     """Process numbers of the ranks below mpirun."""
     children = pathlib.Path(f"/proc/{launcher}/task/{launcher}/children").read_text().split()
+    name = pathlib.Path(ARGUMENTS.tribogel).name
     return [int(child) for child in children
-            if pathlib.Path(f"/proc/{child}/comm").read_text().strip() == pathlib.Path(ARGUMENTS.tribogel).name]
+            if pathlib.Path(f"/proc/{child}/comm").read_text().strip() == name]
 
 
 class Folder(unittest.TestCase):
@@ -100,7 +103,8 @@ class Folder(unittest.TestCase):
 
 class Killed(Folder):
     def kill(self, name, every, longest, whole):
-        """SIGKILL at some moment to all ranks, or to one, and mpirun then ends the others. Returns the moment."""
+        """SIGKILL at some moment to all ranks, or to one, and mpirun then ends the others. Returns the
+        moment."""
         while True:
             delay = random.uniform(0, longest)
             launcher = self.start(2, SCENE + ["-checkpoint_every", every, "-output_directory", name])
@@ -113,7 +117,8 @@ class Killed(Folder):
                 pass
             try:
                 status = launcher.wait(timeout=30)
-            except subprocess.TimeoutExpired:  # mpirun does not see the end of ranks that die before they greet it
+            # mpirun does not see the end of ranks that die before they greet it
+            except subprocess.TimeoutExpired:
                 for left in ranks_of(launcher.pid) + [launcher.pid]:
                     os.kill(left, signal.SIGKILL)
                 status = launcher.wait(timeout=30)
@@ -166,7 +171,8 @@ class Stopped(Folder):
 
     def test_by_signals(self):
         run(1, SCENE + ["-output_directory", "whole"], self.folder)
-        for ranks, sent in ((1, signal.SIGUSR1), (1, signal.SIGTERM), (1, signal.SIGINT), (2, signal.SIGUSR1)):
+        for ranks, sent in ((1, signal.SIGUSR1), (1, signal.SIGTERM), (1, signal.SIGINT),
+                            (2, signal.SIGUSR1)):
             with self.subTest(ranks=ranks, signal=sent.name):
                 name = f"{sent.name}{ranks}"
                 program = self.start(ranks, SCENE + ["-output_directory", name, "-checkpoint_every", "0"])
@@ -197,7 +203,8 @@ class Stopped(Folder):
             run(1, ["-restart", "pieces"], self.folder, 0 if last else 4)
             run(1 + step % 3, ["-restart", "ranks"], self.folder, 0 if last else 4)
         for name in ("history.csv", "profile.csv"):
-            self.assertEqual((self.folder / "pieces" / name).read_bytes(), (self.folder / "whole" / name).read_bytes())
+            self.assertEqual((self.folder / "pieces" / name).read_bytes(),
+                             (self.folder / "whole" / name).read_bytes())
         self.assert_same("ranks", "whole")
         before = (self.folder / "pieces" / "history.csv").read_bytes()
         self.assertIn("complete", run(1, ["-restart", "pieces"], self.folder).stdout)
@@ -257,11 +264,13 @@ class Refused(Folder):
         self.refuses(["-restart", "run"], "is no checkpoint of tribogel")
 
     def test_another_scene(self):
-        for name, value, stored in (("-top_height", "4.5", "4.4"), ("-friction_coefficients", "0,1e-3", "0,8e-4"),
+        for name, value, stored in (("-top_height", "4.5", "4.4"),
+                                    ("-friction_coefficients", "0,1e-3", "0,8e-4"),
                                     ("-element_order", "2", "1"), ("-schedule_rates", "0,0.2", "0,0.1"),
                                     ("-plate_contact", "false", "true")):
             self.refuses(["-restart", "run", name, value], f"{name} = {value}", f"run has {stored}")
-        self.refuses(["-restart", "run", "-schedule_twists", "0,2"], "-schedule_twists = 0,2: the run in run has none")
+        self.refuses(["-restart", "run", "-schedule_twists", "0,2"],
+                     "-schedule_twists = 0,2: the run in run has none")
         self.refuses(["-restart", "run", "-overwrite"], "-overwrite")
         self.refuses(["-restart", "run", "-output_directory", "other"], "-output_directory = other")
         self.refuses(SHORT + ["-output_directory", "run"], "-output_directory = run", "holds a run")
@@ -277,21 +286,23 @@ class Refused(Folder):
         self.refuses(["-restart", "run"], "profile.csv has other columns")
 
     def test_but_not_the_same_scene_again_nor_another_solver(self):
-        words = SHORT + ["-top_height", "4.40", "-output_directory", "run/", "-snes_rtol", "1e-9", "-wall_time", "1e3"]
+        words = SHORT + ["-top_height", "4.40", "-output_directory", "run/", "-snes_rtol", "1e-9",
+                         "-wall_time", "1e3"]
         run(1, words + ["-restart", "run"], self.folder)
         self.assertIn('"snes_rtol": "1e-9"', (self.folder / "run" / "summary.json").read_text())
 
 
 class MeshFile(Folder):
     """The mesh of the file goes with the run, under whatever path."""
-    BRIEF = ["-model", "solid", "-element_order", "1", "-plate_contact", "false", "-top_material", "hyperelastic",
-             "-bottom_material", "hyperelastic", "-friction_coefficients", "0.1", "-friction_exponents", "0",
-             "-schedule_end_times", "1", "-schedule_approach", "0.1", "-schedule_rates", "0", "-ts_adapt_type", "none",
-             "-ts_dt", "0.5"]
+    BRIEF = ["-model", "solid", "-element_order", "1", "-plate_contact", "false", "-top_material",
+             "hyperelastic", "-bottom_material", "hyperelastic", "-friction_coefficients", "0.1",
+             "-friction_exponents", "0", "-schedule_end_times", "1", "-schedule_approach", "0.1",
+             "-schedule_rates", "0", "-ts_adapt_type", "none", "-ts_dt", "0.5"]
 
     def setUp(self):
         super().setUp()
-        made = subprocess.run([REPOSITORY / "tools" / "specimen-mesh", "square", "--elements", "1", "--bottom-radius", "14"],
+        made = subprocess.run([REPOSITORY / "tools" / "specimen-mesh", "square", "--elements", "1",
+                               "--bottom-radius", "14"],
                               capture_output=True, text=True, check=True)
         self.first = made.stdout
         for name in ("start", "elsewhere"):
@@ -325,23 +336,28 @@ class MeshFile(Folder):
         path = self.folder / "start" / "mesh.msh"
         for ranks, text in ((1, self.moved(14, "-1.9")), (2, self.reversed()), (1, self.moved(19, "-0.5"))):
             path.write_text(text)
-            self.refuses(ranks, ["-restart", "run"], "mesh.msh: the mesh is not that of the run in run", "the same mesh")
+            self.refuses(ranks, ["-restart", "run"], "mesh.msh: the mesh is not that of the run in run",
+                         "the same mesh")
         path.unlink()
         self.refuses(1, ["-restart", "run"], "mesh.msh: does not exist", "-mesh_file with the path")
-        self.refuses(1, ["-restart", "run", "-mesh_file", "mesh.msh"], "-mesh_file = mesh.msh: does not exist")
+        self.refuses(1, ["-restart", "run", "-mesh_file", "mesh.msh"],
+                     "-mesh_file = mesh.msh: does not exist")
 
     def test_the_same_mesh_is_taken(self):
         run(2, ["-restart", "../run", "-wall_time", "1e3"], self.folder / "elsewhere")
         shutil.rmtree(self.folder / "run")
-        run(1, self.BRIEF + ["-mesh_file", "start/mesh.msh", "-output_directory", "run", "-wall_time", "1e-6"],
+        run(1, self.BRIEF
+            + ["-mesh_file", "start/mesh.msh", "-output_directory", "run", "-wall_time", "1e-6"],
             self.folder, 4)
         (self.folder / "start" / "mesh.msh").rename(self.folder / "elsewhere" / "gel.msh")
-        run(1, ["-restart", "../run", "-mesh_file", "gel.msh", "-wall_time", "1e3"], self.folder / "elsewhere")
+        run(1, ["-restart", "../run", "-mesh_file", "gel.msh", "-wall_time", "1e3"],
+            self.folder / "elsewhere")
 
 
 def main():
     global ARGUMENTS
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("tribogel", type=lambda path: str(pathlib.Path(path).resolve()))
     parser.add_argument("--mpirun", required=True)
     parser.add_argument("--kills", type=int, default=3)

@@ -1,0 +1,2 @@
+"""Starts on generated inputs: sensible scenes (`scenes`), ways to spoil them (`spoilers`), meshes and runs in
+files."""
