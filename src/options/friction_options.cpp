@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fstream>
 
 namespace tribogel
@@ -131,8 +132,9 @@ void note_idle_floor(const OptionReader &reader, const LawDeclaration &law, Scen
 /// The two columns of a file, each as a list of options.
 std::array<std::string, 2> columns_of(const std::string &path)
 {
+  std::error_code ignored;
   std::ifstream stream(path);
-  if (!stream)
+  if (!std::filesystem::is_regular_file(path, ignored) || !stream)
     refuse(table_file, path, "cannot be read; allowed: a text file of two columns, v in mm/s and mu");
   std::array<std::string, 2> columns;
   std::string line;

@@ -5,8 +5,12 @@
 
 #include "tribogel/friction/formula_law.hpp"
 
-#include <math.h> // pchip.hpp of Boost 1.74 calls isnan, of no namespace
+#include <cmath>
 
+namespace boost::math::interpolators
+{
+using std::isnan; // pchip.hpp of Boost 1.74 calls it without a namespace
+}
 #include <boost/math/interpolators/pchip.hpp>
 
 #include <memory>
