@@ -1,7 +1,7 @@
 """Section 2 and eqs. (3.11), (3.13) of the paper for the tools: a planar contact of radius R [mm] under
 uniform pressure.
 
-include/tribogel/friction/rheometer.hpp has the same for the program, and says what the printed (3.11) lacks;
+include/tribogel/friction/torque.hpp has the same for the program, and says what the printed (3.11) lacks;
 tests/tools/test_reproduce_paper.py holds both together through the columns mu_apparent and mu_gong.
 """
 import numpy as np
