@@ -4,9 +4,10 @@
 
 #include "observe/recorder.hpp"
 
+#include <span>
 #include <string>
+#include <type_traits>
 #include <variant>
-#include <vector>
 
 namespace tribogel
 {
@@ -21,17 +22,17 @@ template <class Row> struct Column {
   bool in_summary = false; ///< of history.csv: at the phases' ends in summary.json too
 };
 
-const std::vector<Column<HistoryRow>> &history_columns();
+std::span<const Column<HistoryRow>> history_columns();
 
 /// A surface's row at a phase's end.
 struct ProfileLine {
   const PhaseEnd &end;
   const ProfileRow &row;
 };
-const std::vector<Column<ProfileLine>> &profile_columns();
+std::span<const Column<ProfileLine>> profile_columns();
 
 /// The names, separated by commas.
-template <class Row> std::string header_of(const std::vector<Column<Row>> &columns)
+template <class Row> std::string header_of(std::span<const Column<Row>> columns)
 {
   std::string line;
   for (const auto &column : columns) line += (line.empty() ? "" : ",") + std::string(column.name);
@@ -42,7 +43,8 @@ template <class Row> std::string header_of(const std::vector<Column<Row>> &colum
 std::string text_of(const Cell &cell);
 
 /// The row's cells, separated by commas, and a line feed.
-template <class Row> std::string line_of(const std::vector<Column<Row>> &columns, const Row &row)
+template <class Row>
+std::string line_of(std::span<const Column<Row>> columns, const std::type_identity_t<Row> &row)
 {
   std::string line;
   for (const auto &column : columns) line += (line.empty() ? "" : ",") + text_of(column.value(row));

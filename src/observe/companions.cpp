@@ -18,7 +18,7 @@ namespace
 {
 
 /// Over the run's edges. With these the errors of N and T of the paper scene are within those that are
-/// estimated on each mesh from 6 to 32 elements (tests/README.md, Errors estimated and true); with 2 and 4
+/// estimated on each mesh from 6 to 32 elements (tests/measurements/error-estimate.md); with 2 and 4
 /// alone and orders up to 2.4 and 4.8 believed, a third of the cost, on all but five of order 2, whose values
 /// scatter.
 constexpr double coarsenings[] = {4.0 / 3, 2, 8.0 / 3, 4};

@@ -48,7 +48,14 @@ OptionGroup choice_group()
                    " notice",
         .source = "own",
         .range = any_real,
-        .rule = "two, increasing, the first >= 0"}}};
+        .rule = "two, increasing, the first >= 0"},
+       {.name = table_file,
+        .kind = OptionKind::path,
+        .fallback = "",
+        .meaning = "with -friction_law table: a text file of two columns, v in mm/s and mu, separated by a"
+                   " comma; a heading and lines that begin with # are passed over",
+        .source = "own",
+        .rule = "in place of -friction_table_speeds and -friction_table_coefficients"}}};
   for (const KnownLaw &law : known_laws()) group.options[0].choices.emplace_back(law.declaration->name);
   return group;
 }

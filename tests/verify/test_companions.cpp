@@ -95,7 +95,7 @@ TEST(companions, AreStoppedOnRequest)
   EXPECT_EQ(companion.failure, "enough");
 }
 
-/// The limits of N and T per rate are those of tests/README.md, Limits of the mesh. Fails with meshes of 2
+/// The limits of N and T per rate are those of tests/measurements/mesh-limits.md. Fails with meshes of 2
 /// and 4 times the edges alone (order 2, 10 elements).
 TEST(companions, ErrorsOfTheRheometerAreWithinTheEstimate)
 {

@@ -153,7 +153,7 @@ TEST(hertz, SteepCap)
   EXPECT_LT(std::abs(excess[0]), 0.01);
 }
 
-/// The tables of tests/README.md.
+/// The tables of tests/measurements/exact-solutions.md.
 TEST(hertz, DISABLED_Table)
 {
   for (int order : {1, 2})

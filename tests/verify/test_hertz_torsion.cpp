@@ -157,7 +157,7 @@ TEST(hertz_torsion, ViscousLaws)
     }
 }
 
-/// The tables of tests/README.md.
+/// The tables of tests/measurements/exact-solutions.md.
 TEST(hertz_torsion, DISABLED_TableOfCoulomb)
 {
   for (int order : {2, 1})

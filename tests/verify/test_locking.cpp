@@ -68,7 +68,7 @@ TEST(locking, ErrorSaturatesAndFallsUnderRefinement)
   }
 }
 
-/// The table of tests/README.md.
+/// The table of tests/measurements/exact-solutions.md.
 TEST(locking, DISABLED_Table)
 {
   for (double bulk_over_shear : {1e2, 1e3, 1e4, 1e5}) {

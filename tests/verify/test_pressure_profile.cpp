@@ -136,7 +136,7 @@ Deviation measure(int order, int top, int bottom, const std::vector<NodalValue> 
 
 } // namespace
 
-/// Bounds: 1.3 to 3.5 times what was measured, see tests/README.md.
+/// Bounds: 1.3 to 3.5 times what was measured, see tests/measurements/exact-solutions.md.
 TEST(pressure_profile, SmoothAndRightOnMatchingAndNonMatchingMeshes)
 {
   struct Case {

@@ -141,7 +141,7 @@ TEST(punch, Torsion)
   EXPECT_LT(std::abs(fine2), 1e-3);
 }
 
-/// The tables of tests/README.md.
+/// The tables of tests/measurements/exact-solutions.md.
 TEST(punch, DISABLED_Table)
 {
   for (int order : {1, 2})

@@ -5,8 +5,8 @@ no checkpoint, or another scene, is refused in one line and nothing is changed.
 
   test_restart.py TRIBOGEL --mpirun MPIRUN [--kills N] [--seed S] [unittest's arguments]
 
---kills: how many times a run on 2 ranks is killed; 20 make the study of tests/README.md, which the table
-printed at the end belongs to.
+--kills: how many times a run on 2 ranks is killed; 20 make the study of
+tests/measurements/restarts.md, to which the table printed at the end belongs.
 """
 import argparse
 import csv

@@ -1,5 +1,5 @@
 /// Hertz's contact in space: the scene of hertz.hpp with hexahedra. Too long for every day; the
-/// tables of tests/README.md come from here.
+/// tables of tests/measurements/in-space.md come from here.
 #include "hertz.hpp"
 #include "tribogel/friction/polynomial.hpp"
 

@@ -13,7 +13,7 @@
 ///
 /// p being per current area: per reference area it is 3 % more here, of which the torque would show 1 - a.
 /// The gels' twist changes p in second order only: (shear stress)^2/(G p), below 1e-7 here.
-#include "tribogel/friction/polynomial.hpp"
+#include "tribogel/friction/laws.hpp"
 #include "uniform_compression.hpp"
 
 namespace tribogel::test
@@ -37,8 +37,8 @@ double closed_form(const std::vector<double> &b, double omega)
   return sum;
 }
 
-/// T/(N R) at the end of a phase at each rate.
-std::vector<double> measured(const PolynomialFriction<double> &law, int order, int elements)
+/// T/(N R) at the end of a phase at each rate, N taken as pi R^2 p^a.
+std::vector<double> measured(const Friction &law, double a, int order, int elements)
 {
   const SolverOptions options(fixed_steps(1.25, 1e-11));
   const double compression = 0.03;
@@ -58,7 +58,7 @@ std::vector<double> measured(const PolynomialFriction<double> &law, int order, i
     const Measurement &m = recorder.phases[k].measurement;
     EXPECT_NEAR(m.normal_force / N, 1, 1e-7);
     EXPECT_NEAR(m.contact_radius / R, 1, 1e-7);
-    const double load = N * std::pow(state.pressure, law.pressure_exponent - 1); // pi R^2 p^a
+    const double load = N * std::pow(state.pressure, a - 1); // pi R^2 p^a
     ratios.push_back(m.torque / (load * R));
   }
   return ratios;
@@ -66,7 +66,7 @@ std::vector<double> measured(const PolynomialFriction<double> &law, int order, i
 
 std::vector<double> measured(const std::vector<double> &b, int order, int elements)
 {
-  return measured(PolynomialFriction<double>{b, exponents}, order, elements);
+  return measured(PolynomialFriction<double>{b, exponents}, 1, order, elements);
 }
 
 } // namespace
@@ -132,7 +132,8 @@ void expect_convergence(const PolynomialFriction<double> &law, int order, double
   for (std::size_t i = 0; i < law.exponents.size(); ++i)
     exact += law.coefficients[i] * std::pow(rates[2] * R, law.exponents[i]) * 2 / (law.exponents[i] + 3);
   std::vector<double> error;
-  for (const int elements : {4, 8, 16}) error.push_back(measured(law, order, elements)[2] / exact - 1);
+  for (const int elements : {4, 8, 16})
+    error.push_back(measured(law, law.pressure_exponent, order, elements)[2] / exact - 1);
   EXPECT_GE(std::log2(std::abs(error[1] / error[2])), rate) << error[0] << ' ' << error[1] << ' ' << error[2];
   EXPECT_LE(std::abs(error[2]), largest);
 }
@@ -151,10 +152,65 @@ TEST(uniform_pressure, PressureExponents)
 {
   for (const double a : {0.0, 0.5}) { // p is 0.12 MPa: a tenth of the coefficients gives tractions like above
     expect_convergence({{2.6e-5}, {0.5}, a}, 2, 2.8, 1e-4); // Kagata's form
-    for (const double ratio : measured(PolynomialFriction<double>{{3.1e-5}, {0}, a}, 1, 3)) {
+    for (const double ratio : measured(PolynomialFriction<double>{{3.1e-5}, {0}, a}, a, 1, 3)) {
       EXPECT_NEAR(ratio / (3.1e-5 * 2 / 3), 1, 1e-7);
     }
   }
+}
+
+/// The other laws, through the whole program: T/(N R) = 2/(R^3 p) int tau(omega r, p) r^2 dr by midpoint sums
+/// of formulas written here; speeds go up to 10 mm/s. The rest is the mesh's.
+TEST(uniform_pressure, EveryLaw)
+{
+  struct Case {
+    const char *name;
+    LawValues values;
+    std::function<double(double v, double p)> tau;
+  };
+  const std::vector<Case> laws{
+      {"coulomb", {{2.6e-4}}, [](double, double p) { return 2.6e-4 * p; }},
+      {"power",
+       {{2.6e-4}, {0.6}, {0.3}, {1}, {1e-5}},
+       [](double v, double p) { return 2.6e-4 * std::pow(v + 0.3, 0.6) * p; }},
+      {"plateau",
+       {{1e-4}, {0.7}, {0.5}},
+       [](double v, double p) { return 1e-4 * (1 + std::sqrt(v / 0.7)) * p; }},
+      {"exponential_decay",
+       {{1e-4}, {3e-4}, {2}},
+       [](double v, double p) { return (3e-4 - 2e-4 * std::exp(-v / 2)) * p; }},
+      {"stribeck",
+       {{2e-4}, {1e-4}, {2}, {2}, {1e-4}},
+       [](double v, double p) { return (1e-4 + 1e-4 * std::exp(-v * v / 4) + 1e-4 * v) * p; }},
+      {"adsorption_viscous",
+       {{1e-5}, {3}, {4e-6}, {1e-5}},
+       [](double v, double) { return 2e-5 * (v / 3) / (1 + v * v / 9) + 4e-6 * v; }},
+      {"asinh",
+       {{1e-4}, {0.4}, {1}, {1e-5}},
+       [](double v, double p) { return 1e-4 * std::asinh(v / 0.8) * p; }},
+      {"bounded",
+       {{2e-4}, {1e-5}, {3e-5}, {1e-5}},
+       [](double, double p) { return std::min(2e-4 * p + 1e-5, 3e-5); }},
+      {"table", {{0, 2, 5, 20}, {1e-4, 2e-4, 3.5e-4, 1.1e-3}, {0}}, [](double v, double p) {
+         return (1e-4 + 5e-5 * v) * p;
+       }}}; // four points of a line
+  constexpr int rings = 4000;
+  const double p = uniaxial_state(hyperelastic_gel().equilibrium, 0.97).pressure;
+  std::size_t found = 0;
+  for (const KnownLaw &known : known_laws())
+    for (const Case &law : laws) {
+      if (law.name != std::string(known.declaration->name)) continue;
+      ++found;
+      const auto ratios = measured(known.make(law.values), 1, 2, 8);
+      for (std::size_t i = 0; i < rates.size(); ++i) {
+        double sum = 0;
+        for (int k = 0; k < rings; ++k) {
+          const double r = R * (k + 0.5) / rings;
+          sum += law.tau(rates[i] * r, p) * r * r * R / rings;
+        }
+        EXPECT_NEAR(ratios[i] / (2 * sum / (R * R * R * p)), 1, 3e-4) << law.name << " at " << rates[i];
+      }
+    }
+  EXPECT_EQ(found, laws.size());
 }
 
 } // namespace tribogel::test

@@ -3,8 +3,8 @@
 A number is any function of a run. It is shown as it comes from the run on the shown mesh; its mesh error is
 taken to be its difference from the same number on the mesh with edges twice as long, as if errors fell with
 the edge (they do so for T and faster for N: the table of meshes shows it), its time error 4/3 of what a
-quarter of the step tolerance changes there (the true error follows the tolerance, tests/README.md). In space
-there are two meshes, 2 and 3 elements.
+quarter of the step tolerance changes there (the true error follows the tolerance,
+tests/measurements/time-steps.md). In space there are two meshes, 2 and 3 elements.
 """
 import dataclasses
 import functools
