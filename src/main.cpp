@@ -1,6 +1,6 @@
 /// tribogel: two gels in a rheometer. Options in; force, torque and friction out; see -help.
+#include "gmsh/mesh_file.hpp"
 #include "mesh/digest.hpp"
-#include "mesh/mesh_file.hpp"
 #include "observe/checkpoint.hpp"
 #include "observe/columns.hpp"
 #include "observe/output_directory.hpp"

@@ -1,6 +1,7 @@
 #include "options/material_input.hpp"
 
 #include "support/parse.hpp"
+#include "tribogel/material/relaxation.hpp"
 
 namespace tribogel
 {
@@ -107,22 +108,6 @@ Viscoelastic<double> read_material(const OptionReader &reader, const std::string
   if (!idle.empty()) input.notes.push_back("without effect with " + stem + "_material hyperelastic: " + idle);
   material.branches.clear();
   return material;
-}
-
-double initial_poisson_ratio(const Ogden<double> &law)
-{
-  const double G = law.shear_modulus(), K = law.bulk_modulus;
-  return (3 * K - 2 * G) / (2 * (3 * K + G));
-}
-
-double shape_relaxation_time(const MaxwellBranch<double> &branch)
-{
-  return branch.deviatoric_viscosity / branch.spring.shear_modulus();
-}
-
-double volume_relaxation_time(const MaxwellBranch<double> &branch)
-{
-  return branch.volumetric_viscosity / branch.spring.bulk_modulus;
 }
 
 } // namespace tribogel

@@ -1,7 +1,7 @@
 /// What counts of options that say the same thing, and what is worth telling of where they come from. Pure.
 #pragma once
 
-#include "options/command_line.hpp"
+#include "support/command_line.hpp"
 
 #include <array>
 #include <string>

@@ -1,7 +1,7 @@
 #include "options/option_reader.hpp"
 
-#include "options/characters.hpp"
 #include "options/nearest_name.hpp"
+#include "support/characters.hpp"
 #include "support/parse.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 /// All options that were given: read by the first process, known to all, before there is PETSc.
 #pragma once
 
-#include "options/command_line.hpp"
+#include "support/command_line.hpp"
 
 #include <string>
 #include <vector>

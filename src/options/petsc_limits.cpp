@@ -1,7 +1,7 @@
 #include "options/petsc_limits.hpp"
 
-#include "options/command_line.hpp"
 #include "options/option_table.hpp"
+#include "support/command_line.hpp"
 #include "support/parse.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "options/report.hpp"
 
-#include "options/material_input.hpp"
+#include "tribogel/material/relaxation.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,6 +5,7 @@
 #include "options/option_reader.hpp"
 #include "options/size_doubts.hpp"
 #include "support/parse.hpp"
+#include "tribogel/material/relaxation.hpp"
 #include "tribogel/scene/overhang.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 /// How long steps may be before their errors are known: at a phase's start, at the first touch, at all.
-#include "options/material_input.hpp"
 #include "solve/problem.hpp"
+#include "tribogel/material/relaxation.hpp"
 #include "tribogel/math/sdirk2.hpp"
 
 #include <algorithm>

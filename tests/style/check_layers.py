@@ -21,6 +21,7 @@ LAYERS = (
     ("src/support",),
     ("src/options", "src/linear"),
     ("src/mesh",),
+    ("src/gmsh",),
     ("src/bulk", "src/contact"),
     ("src/solve",),
     ("src/observe",),

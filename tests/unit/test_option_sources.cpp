@@ -1,8 +1,8 @@
 // Where options come from: words, files and the environment, what is taken, what is refused and what counts.
 // No PETSc.
-#include "options/command_line.hpp"
 #include "options/option_order.hpp"
 #include "options/petsc_limits.hpp"
+#include "support/command_line.hpp"
 
 #include <gtest/gtest.h>
 
@@ -131,7 +131,10 @@ TEST(CommandLine, takes_out_help_and_version)
   const CommandLine line = read_command_line({"tribogel", "-version", "-overwrite"});
   EXPECT_EQ(line.help, HelpRequest::version);
   EXPECT_EQ(listed(line.options), "-overwrite= ");
-  EXPECT_TRUE(contains(refusal([] { read_command_line({"tribogel", "-help", "me"}); }), "petsc, columns or markdown"));
+  EXPECT_TRUE(contains(refusal([] {
+                         read_command_line({"tribogel", "-help", "me"});
+                       }),
+                       "petsc, columns or markdown"));
 }
 
 TEST(CommandLine, judges_PETSC_OPTIONS)

@@ -1,8 +1,8 @@
 // Reading option texts: what is taken, what is refused and in which words. No PETSc.
-#include "options/command_line.hpp"
 #include "options/help.hpp"
 #include "options/nearest_name.hpp"
 #include "options/option_table.hpp"
+#include "support/command_line.hpp"
 #include "support/parse.hpp"
 
 #include <gtest/gtest.h>

@@ -3,6 +3,7 @@
 #include "options/report.hpp"
 #include "options/scene_input.hpp"
 #include "options/stored_options.hpp"
+#include "tribogel/material/relaxation.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -4,7 +4,7 @@
 #include "boxes.hpp"
 #include "gmsh_writer.hpp"
 
-#include "mesh/mesh_checks.hpp"
+#include "gmsh/checks.hpp"
 #include "support/user_error.hpp"
 
 #include <gtest/gtest.h>

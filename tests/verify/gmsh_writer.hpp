@@ -1,7 +1,7 @@
 /// Serial meshes as Gmsh would write them.
 #pragma once
 
-#include "mesh/gmsh_bodies.hpp"
+#include "gmsh/bodies.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,7 +1,7 @@
 /// Middles of hexahedra of second order that are somewhere else, or that two elements have at two places.
 #include "checked_meshes.hpp"
 
-#include "mesh/hexahedron.hpp"
+#include "gmsh/hexahedron.hpp"
 
 #include <functional>
 

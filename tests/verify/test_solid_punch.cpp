@@ -11,7 +11,7 @@
 #include "outlines.hpp"
 #include "solids.hpp"
 
-#include "mesh/gmsh_bodies.hpp"
+#include "gmsh/bodies.hpp"
 
 #include <numbers>
 

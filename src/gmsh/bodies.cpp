@@ -1,8 +1,8 @@
-#include "mesh/gmsh_bodies.hpp"
+#include "gmsh/bodies.hpp"
 
-#include "mesh/gmsh_file.hpp"
-#include "mesh/gmsh_groups.hpp"
-#include "mesh/hexahedron.hpp"
+#include "gmsh/file.hpp"
+#include "gmsh/groups.hpp"
+#include "gmsh/hexahedron.hpp"
 #include "support/user_error.hpp"
 
 #include <boost/pending/disjoint_sets.hpp>

@@ -1,4 +1,4 @@
-#include "mesh/outer_face.hpp"
+#include "gmsh/outer_face.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
-#include "options/options_text.hpp"
+#include "support/options_text.hpp"
 
-#include "options/characters.hpp"
+#include "support/characters.hpp"
 
 #include <cerrno>
 #include <cstring>

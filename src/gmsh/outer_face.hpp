@@ -1,8 +1,8 @@
 /// What the checks of a file's bodies know of one outer face. Its edges are straight.
 #pragma once
 
-#include "mesh/gmsh_bodies.hpp"
-#include "mesh/hexahedron.hpp"
+#include "gmsh/bodies.hpp"
+#include "gmsh/hexahedron.hpp"
 
 #include <string>
 

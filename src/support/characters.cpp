@@ -1,4 +1,4 @@
-#include "options/characters.hpp"
+#include "support/characters.hpp"
 
 #include <cstdio>
 #include <functional>

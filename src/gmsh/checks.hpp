@@ -3,7 +3,7 @@
 /// suspicious is warned of.
 #pragma once
 
-#include "mesh/gmsh_bodies.hpp"
+#include "gmsh/bodies.hpp"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 /// Faces that are missing from the groups of plates and contact faces.
-#include "mesh/mesh_checks.hpp"
-#include "mesh/outer_face.hpp"
+#include "gmsh/checks.hpp"
+#include "gmsh/outer_face.hpp"
 #include "support/user_error.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "mesh/gmsh_groups.hpp"
+#include "gmsh/groups.hpp"
 
 #include "options/nearest_name.hpp"
 

@@ -48,7 +48,7 @@ std::array<int, 8> middle_key(const std::vector<int> &vertices);
 /// The volumes `top` and `bottom`, or `bottom` alone, with these surfaces. Order 2 takes the middles of
 /// edges, faces and cells from hexahedra of second order; else they are means of the corners. Ranks get
 /// sectors about the z axis, the axis of the plates. Throws UserError, without the file's name, if this is
-/// not what the file holds; whether the bodies are sound is for mesh/mesh_checks.hpp to say.
+/// not what the file holds; whether the bodies are sound is for gmsh/checks.hpp to say.
 GmshBodies bodies_of_gmsh(std::istream &stream, bool has_top, int order);
 
 /// Their mesh alone.

@@ -1,4 +1,4 @@
-#include "mesh/gmsh_tables.hpp"
+#include "gmsh/tables.hpp"
 
 #include "support/user_error.hpp"
 

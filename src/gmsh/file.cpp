@@ -1,6 +1,6 @@
-#include "mesh/gmsh_file.hpp"
+#include "gmsh/file.hpp"
 
-#include "mesh/gmsh_tables.hpp"
+#include "gmsh/tables.hpp"
 #include "support/parse.hpp"
 #include "support/user_error.hpp"
 

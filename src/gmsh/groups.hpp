@@ -1,7 +1,7 @@
 /// Words about the groups of a Gmsh file.
 #pragma once
 
-#include "mesh/gmsh_file.hpp"
+#include "gmsh/file.hpp"
 
 #include <string>
 

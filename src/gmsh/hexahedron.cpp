@@ -1,4 +1,4 @@
-#include "mesh/hexahedron.hpp"
+#include "gmsh/hexahedron.hpp"
 
 #include "tribogel/element/quadrature.hpp"
 #include "tribogel/element/shape.hpp"

@@ -1,9 +1,9 @@
-#include "mesh/mesh_file.hpp"
+#include "gmsh/mesh_file.hpp"
 
+#include "gmsh/bodies.hpp"
+#include "gmsh/checks.hpp"
 #include "mesh/cylinder.hpp"
 #include "mesh/face.hpp"
-#include "mesh/gmsh_bodies.hpp"
-#include "mesh/mesh_checks.hpp"
 #include "support/first_process.hpp"
 #include "support/parse.hpp"
 

@@ -1,7 +1,7 @@
-#include "options/command_line.hpp"
+#include "support/command_line.hpp"
 
-#include "options/characters.hpp"
-#include "options/options_text.hpp"
+#include "support/characters.hpp"
+#include "support/options_text.hpp"
 
 #include <algorithm>
 #include <cctype>

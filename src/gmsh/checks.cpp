@@ -1,6 +1,6 @@
-#include "mesh/mesh_checks.hpp"
+#include "gmsh/checks.hpp"
 
-#include "mesh/outer_face.hpp"
+#include "gmsh/outer_face.hpp"
 #include "support/user_error.hpp"
 #include "tribogel/contact/surface/search.hpp"
 
