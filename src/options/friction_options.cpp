@@ -20,6 +20,9 @@ constexpr const char *table_file = "-friction_table_file", *table_speeds = "-fri
 
 Option option_of(const LawDeclaration &law, const LawParameter &parameter)
 {
+  std::string rule = parameter.rule;
+  if (std::string(parameter.fallback).empty())
+    rule += std::string(rule.empty() ? "" : ", ") + "to be given with this law";
   return {.name = law.option(parameter),
           .kind = parameter.is_list ? OptionKind::reals : OptionKind::real,
           .fallback = parameter.fallback,
@@ -27,7 +30,7 @@ Option option_of(const LawDeclaration &law, const LawParameter &parameter)
           .meaning = parameter.meaning,
           .source = parameter.source,
           .range = {parameter.lowest, parameter.highest, parameter.lowest_excluded},
-          .rule = parameter.rule};
+          .rule = rule};
 }
 
 OptionGroup choice_group()
