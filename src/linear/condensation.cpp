@@ -34,13 +34,18 @@ PetscErrorCode Multiply(Mat X, Mat Y, MatHandle &product)
 }
 
 /// A matrix of so many own rows and columns with room for `per_row` entries, on this rank and off it.
-/// MatMatMult may leave fewer than that.
+/// MatMatMult may leave fewer than that. No row can have more than there are columns.
 PetscErrorCode CreatePart(MPI_Comm comm, PetscInt rows, PetscInt columns,
                           const std::vector<PetscInt> &per_row, MatHandle &B)
 {
+  PetscInt all = columns;
   PetscFunctionBegin;
-  PetscCall(MatCreateAIJ(comm, rows, columns, PETSC_DETERMINE, PETSC_DETERMINE, 0, per_row.data(), 0,
-                         per_row.data(), B.put()));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPIU_INT, MPI_SUM, comm));
+  std::vector<PetscInt> own = per_row, of_others = per_row;
+  for (PetscInt &entries : own) entries = std::min(entries, columns);
+  for (PetscInt &entries : of_others) entries = std::min(entries, all - columns);
+  PetscCall(MatCreateAIJ(comm, rows, columns, PETSC_DETERMINE, PETSC_DETERMINE, 0, own.data(), 0,
+                         of_others.data(), B.put()));
   PetscCall(MatSetOption(B, MAT_NO_OFF_PROC_ENTRIES, PETSC_TRUE));
   PetscCall(MatSetOption(B, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
   PetscFunctionReturn(0);
