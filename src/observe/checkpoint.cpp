@@ -21,7 +21,7 @@ const std::string kind = std::string("checkpoint of tribogel ") + version;
 
 constexpr const char *mesh_name = "mesh"; ///< of its digest in the file
 
-template <class Visitor> PetscErrorCode VisitCounts(SolveCounts &counts, Visitor &visit)
+template <class AnyCounts, class Visitor> PetscErrorCode VisitCounts(AnyCounts &counts, Visitor &visit)
 {
   PetscFunctionBeginUser;
   PetscCall(visit("accepted_steps", counts.accepted_steps));
@@ -98,11 +98,12 @@ PetscErrorCode Checkpoint::Restore(const StoredRun &stored, Problem &problem)
 {
   std::vector<double> rows, phases, bytes;
   PetscFunctionBeginUser;
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.state.U)));
+  const MPI_Comm comm =
+      PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.stepper.state.U)));
   PetscCall(Orders(problem));
   Loader load(*orders, comm, stored.data);
-  PetscCall(VisitState(problem.state, load));
-  PetscCall(VisitCounts(problem.counts, load));
+  PetscCall(VisitState(problem.stepper.state, load));
+  PetscCall(VisitCounts(problem.stepper.counts, load));
   PetscCall(VisitCost(earlier, load));
   PetscCall(load.Table("rows", rows));
   PetscCall(load.Table("phases", phases));
@@ -125,7 +126,7 @@ PetscErrorCode Checkpoint::Restore(const StoredRun &stored, Problem &problem)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Checkpoint::Start(Problem &problem)
+PetscErrorCode Checkpoint::Start(const Problem &problem)
 {
   PetscFunctionBeginUser;
   last_step = last_written = MPI_Wtime();
@@ -133,7 +134,7 @@ PetscErrorCode Checkpoint::Start(Problem &problem)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Checkpoint::Step(Problem &problem, const StepReport &report)
+PetscErrorCode Checkpoint::Step(const Problem &problem, const StepReport &report)
 {
   PetscFunctionBeginUser;
   const double now = MPI_Wtime();
@@ -143,35 +144,38 @@ PetscErrorCode Checkpoint::Step(Problem &problem, const StepReport &report)
   enum { signal, time_over, due, wishes };
   int wish[wishes] = {caught_stop_signal(), now - wall_start + longest_step > output.wall_time,
                       now - last_written >= output.checkpoint_every};
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.state.U)));
+  const MPI_Comm comm =
+      PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.stepper.state.U)));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, wish, wishes, MPI_INT, MPI_MAX, comm));
-  const bool over = problem.state.time == problem.scene.schedule.back().end_time;
-  const bool stop = !over && (wish[signal] || wish[time_over]);
-  if (stop || wish[due] || report.ends_phase) PetscCall(Write(problem));
-  if (stop && problem.stop_reason.empty()) {
+  const bool over = problem.stepper.state.time == problem.system.scene.schedule.back().end_time;
+  const bool ends = !over && (wish[signal] || wish[time_over]);
+  if (ends || wish[due] || report.ends_phase) PetscCall(Write(problem));
+  if (ends) {
     char when[64];
-    std::snprintf(when, sizeof when, " at t = %.10g s, to be continued with -restart ", problem.state.time);
-    problem.stop_request = std::string("stopped by ") +
-                           (wish[signal] ? stop_signal_name(wish[signal]) : "-wall_time") + when +
-                           output.directory;
+    std::snprintf(when, sizeof when, " at t = %.10g s, to be continued with -restart ",
+                  problem.stepper.state.time);
+    stop.request(std::string("stopped by ") + (wish[signal] ? stop_signal_name(wish[signal]) : "-wall_time") +
+                 when + output.directory);
   }
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Checkpoint::Write(Problem &problem)
+PetscErrorCode Checkpoint::Write(const Problem &problem)
 {
   DataFile data;
   RunCost cost;
   PetscMPIInt rank;
   PetscFunctionBeginUser;
   if (!recorder.complaint.empty()) PetscFunctionReturn(0); // the last one fits what is in the files
-  PetscCall(PetscLogEventBegin(problem.events.checkpoint, 0, 0, 0, 0));
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.state.U)));
+  PetscCall(events.Register());
+  PetscCall(PetscLogEventBegin(events.checkpoint, 0, 0, 0, 0));
+  const MPI_Comm comm =
+      PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.stepper.state.U)));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(Orders(problem));
   Saver save(*orders, comm, data);
-  PetscCall(VisitState(problem.state, save));
-  PetscCall(VisitCounts(problem.counts, save));
+  PetscCall(VisitState(problem.stepper.state, save));
+  PetscCall(VisitCounts(problem.stepper.counts, save));
   PetscCall(Cost(comm, cost));
   PetscCall(VisitCost(cost, save));
   std::string complaint;
@@ -189,9 +193,9 @@ PetscErrorCode Checkpoint::Write(Problem &problem)
     return failed.empty() ? failed : failed + recorder.way_out(problem);
   };
   PetscCall(OnFirstProcess(comm, write, complaint)); // PETSc calls this: nothing may be thrown
-  if (!complaint.empty()) problem.stop_for(complaint);
+  if (!complaint.empty()) stop.give_up(complaint);
   last_written = MPI_Wtime();
-  PetscCall(PetscLogEventEnd(problem.events.checkpoint, 0, 0, 0, 0));
+  PetscCall(PetscLogEventEnd(events.checkpoint, 0, 0, 0, 0));
   PetscFunctionReturn(0);
 }
 

@@ -33,8 +33,9 @@ struct State {
 };
 
 /// Every member once, by name: `visit(name, member)`, or `visit.Sum(name, member)` where the ranks' values
-/// add up to what is meant. A new member is one more line. Collective if the visitor is.
-template <class Visitor> PetscErrorCode VisitState(State &state, Visitor &visit)
+/// add up to what is meant. AnyState is State or const State. A new member is one more line. Collective if
+/// the visitor is.
+template <class AnyState, class Visitor> PetscErrorCode VisitState(AnyState &state, Visitor &visit)
 {
   PetscFunctionBeginUser;
   PetscCall(visit("phase", state.phase));

@@ -1,5 +1,5 @@
 /// Is the friction law asked what it can answer? Looked at after each accepted step, if the law gives cause.
-#include "solve/problem.hpp"
+#include "time/stepper.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -113,7 +113,7 @@ std::string about_early_end(int phase, double time, double left)
 
 } // namespace
 
-PetscErrorCode Problem::CheckFriction()
+PetscErrorCode Stepper::CheckFriction()
 {
   Vec U, Udot;
   const PetscScalar *u, *rate;
@@ -128,7 +128,7 @@ PetscErrorCode Problem::CheckFriction()
   PetscCall(LocalState(U, Udot));
   PetscCall(VecGetArrayRead(U, &u));
   PetscCall(VecGetArrayRead(Udot, &rate));
-  PetscCall(contact->Results(frames(state.time, state.step), u, rate, results));
+  PetscCall(contact->Results(plates_now(), u, rate, results));
   PetscCall(VecRestoreArrayRead(Udot, &rate));
   PetscCall(VecRestoreArrayRead(U, &u));
   PetscCall(DMRestoreLocalVector(mesh.dm, &Udot));
@@ -136,8 +136,8 @@ PetscErrorCode Problem::CheckFriction()
 
   const FrictionCheck found = look(scene, results);
   const bool turned = state.time == phase().end_time && phase().rate != scene.bottom_plate_rate;
-  if (found.lowest < 0) stop_for(about_negative_friction(found, state.time));
-  if (found.fastest > highest) stop_for(about_end_of_law(*law, found, state.time));
+  if (found.lowest < 0) stop.give_up(about_negative_friction(found, state.time));
+  if (found.fastest > highest) stop.give_up(about_end_of_law(*law, found, state.time));
   if (scene.friction_speeds && found.fastest > (*scene.friction_speeds)[1] && !told.beyond_speeds) {
     told.beyond_speeds = true;
     PetscCall(Notify(about_speed(found, state.time, (*scene.friction_speeds)[1])));
@@ -154,7 +154,7 @@ PetscErrorCode Problem::CheckFriction()
 
 /// Once N and T would change by less than asked for even if they went on as fast as now, the rest of a phase
 /// at constant approach is one step.
-PetscErrorCode Problem::EndPhaseEarly()
+PetscErrorCode Stepper::EndPhaseEarly()
 {
   PetscFunctionBeginUser;
   const Phase &now = phase();
@@ -170,10 +170,10 @@ PetscErrorCode Problem::EndPhaseEarly()
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Problem::Notify(const std::string &text)
+PetscErrorCode Stepper::Notify(const std::string &text)
 {
   PetscFunctionBeginUser;
-  for (Observer *observer : watching) PetscCall(observer->Notice(*this, text));
+  for (Observer *observer : watching) PetscCall(observer->Notice(*watched, text));
   PetscFunctionReturn(0);
 }
 
