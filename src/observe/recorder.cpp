@@ -67,7 +67,7 @@ PetscErrorCode Recorder::Write(Problem &problem, const std::function<std::string
     return failed.empty() ? failed : failed + way_out(problem);
   };
   PetscCall(OnFirstProcess(comm, explained, complaint));
-  if (!complaint.empty()) problem.stop_for(complaint);
+  if (!complaint.empty()) problem.stop.give_up(complaint);
   PetscFunctionReturn(0);
 }
 
@@ -189,8 +189,7 @@ PetscErrorCode Recorder::Record(Problem &problem, const StepReport &report)
   PetscCall(Write(problem, [&] { return history.append(line_of(history_columns(), row)); }));
   if (report.ends_phase) {
     last_profile = std::move(surfaces);
-    phases.push_back({row.phase, row.time, row.approach, row.rotation, row.rate, row.measurement,
-                      displacement_at(last_profile, 0),
+    phases.push_back({row, displacement_at(last_profile, 0),
                       displacement_at(last_profile, row.measurement.contact_radius)});
     PetscCall(Write(problem, [&] { return profile.append(profile_of(phases.back())); }));
   }

@@ -136,8 +136,8 @@ PetscErrorCode Problem::CheckFriction()
 
   const FrictionCheck found = look(scene, results);
   const bool turned = state.time == phase().end_time && phase().rate != scene.bottom_plate_rate;
-  if (found.lowest < 0) stop_for(about_negative_friction(found, state.time));
-  if (found.fastest > highest) stop_for(about_end_of_law(*law, found, state.time));
+  if (found.lowest < 0) stop.give_up(about_negative_friction(found, state.time));
+  if (found.fastest > highest) stop.give_up(about_end_of_law(*law, found, state.time));
   if (scene.friction_speeds && found.fastest > (*scene.friction_speeds)[1] && !told.beyond_speeds) {
     told.beyond_speeds = true;
     PetscCall(Notify(about_speed(found, state.time, (*scene.friction_speeds)[1])));

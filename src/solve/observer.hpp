@@ -1,6 +1,6 @@
 /// What watches a run: called on all ranks after each accepted step, never after a rejected one. An observer
-/// may not change the solution, the schedule or the solver; it may ask the run to stop
-/// (Problem::stop_request), or end it when it cannot do its work (Problem::stop_for), on all ranks alike.
+/// may not change the solution, the schedule or the solver; it may ask the run to stop,
+/// or end it when it cannot do its work (Problem::stop), on all ranks alike.
 #pragma once
 
 #include "solve/failure.hpp"

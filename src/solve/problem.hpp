@@ -13,6 +13,7 @@
 #include "solve/log_events.hpp"
 #include "solve/observer.hpp"
 #include "solve/state.hpp"
+#include "support/stop_wish.hpp"
 #include "tribogel/scene/scene.hpp"
 
 #include <limits>
@@ -74,7 +75,7 @@ public:
   PetscErrorCode SetUp(MPI_Comm comm, const Scene &scene, SerialMesh serial);
   PetscErrorCode SetUp(MPI_Comm comm, const Scene &given, const std::vector<MeridianBlock> &blocks)
   {
-    return SetUp(comm, given, given.model == Model::solid ? revolved_mesh(blocks) : serial_mesh(blocks));
+    return SetUp(comm, given, mesh_of(given.model, blocks));
   }
 
   PetscErrorCode SetFromOptions(); ///< TS, SNES, KSP, PC
@@ -129,7 +130,7 @@ public:
   State state;
   Stage stage;
   SolveCounts counts;
-  std::string stop_request; ///< not empty: why the run is to stop after this step, the same on all ranks
+  StopWish stop;
   LogEvents events;
   TsHandle ts;
   MatHandle jacobian;
@@ -147,14 +148,6 @@ public:
   std::string contact_failure;
   WorstResidual worst;
   StepFailure last_failure; ///< words empty: none yet
-  std::string stop_reason;  ///< why the run cannot go on behind an accepted step; empty: it can
-
-  /// To `stop_reason`, once.
-  void stop_for(const std::string &reason)
-  {
-    if (stop_reason.find(reason) == std::string::npos)
-      stop_reason += (stop_reason.empty() ? "" : "; ") + reason;
-  }
 
   /// Of the last Newton iteration, by `worst`; infinite outside of a solve and in its first iteration.
   double contraction = std::numeric_limits<double>::infinity();
@@ -183,7 +176,7 @@ public:
   PetscErrorCode FirstStep(PetscReal &step, PetscReal &unresolved) const; ///< of the phase [s]
   PetscErrorCode SumPlateLoads(PlateLoads &loads) const;
   PetscErrorCode Diagnose(SNES snes, StepFailure &failure) const; ///< of a solve that diverged
-  PetscErrorCode CheckFriction(); ///< in the accepted state; may set stop_reason
+  PetscErrorCode CheckFriction();                                 ///< in the accepted state; may give up
   PetscErrorCode EndPhaseEarly();
   PetscErrorCode TellFailure();                                               ///< the observers
   PetscErrorCode LargestStrain(const History &history, double &strain) const; ///< and so far, all ranks

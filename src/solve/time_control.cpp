@@ -187,7 +187,7 @@ PetscErrorCode Problem::AcceptStep(PetscReal time, Vec U)
   PetscCall(PetscLogEventBegin(events.observe, 0, 0, 0, 0));
   for (Observer *observer : watching) PetscCall(observer->Step(*this, report));
   PetscCall(PetscLogEventEnd(events.observe, 0, 0, 0, 0));
-  if (!stop_request.empty() || !stop_reason.empty()) PetscCall(TSSetConvergedReason(ts, TS_CONVERGED_USER));
+  if (stop.wanted()) PetscCall(TSSetConvergedReason(ts, TS_CONVERGED_USER));
   PetscFunctionReturn(0);
 }
 
@@ -260,8 +260,7 @@ PetscErrorCode Problem::Run(const std::vector<Observer *> &observers, bool &comp
 {
   PetscFunctionBeginUser;
   watching = observers;
-  stop_request.clear();
-  stop_reason.clear();
+  stop.clear();
   const auto phases = static_cast<int>(scene.schedule.size());
   const SolveCounts known = counts;
   rejected_before = failed_before = 0;
@@ -270,18 +269,15 @@ PetscErrorCode Problem::Run(const std::vector<Observer *> &observers, bool &comp
   failed_before = known.failed_solves - counts.failed_solves;
   PetscCall(TSSetStepNumber(ts, counts.accepted_steps));
   for (Observer *observer : watching) PetscCall(observer->Start(*this));
-  for (int k = state.time < phase().end_time ? state.phase : state.phase + 1;
-       k < phases && stop_reason.empty() && stop_request.empty(); ++k) {
+  for (int k = state.time < phase().end_time ? state.phase : state.phase + 1; k < phases && !stop.wanted();
+       ++k) {
     TSConvergedReason reason;
     PetscCall(RunPhase(k));
     PetscCall(TSGetConvergedReason(ts, &reason));
-    const bool ended = !stop_reason.empty() || !stop_request.empty();
-    if (!ended && (reason <= 0 || state.time != phase().end_time)) stop_for(Explain(reason));
+    if (!stop.wanted() && (reason <= 0 || state.time != phase().end_time)) stop.give_up(Explain(reason));
   }
-  const bool failed = !stop_reason.empty();
-  if (failed) stop_request.clear(); // it cannot be continued from here
-  why = failed ? stop_reason : stop_request;
-  completed = !failed && state.time == scene.schedule.back().end_time;
+  why = stop.reason();
+  completed = !stop.given_up() && state.time == scene.schedule.back().end_time;
   PetscCall(CountFailures());
   PetscFunctionReturn(0);
 }

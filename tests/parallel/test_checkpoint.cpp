@@ -36,7 +36,7 @@ public:
   PetscErrorCode Start(Problem &) override { return 0; }
   PetscErrorCode Step(Problem &problem, const StepReport &) override
   {
-    if (problem.state.time > stop_time) problem.stop_request = "enough";
+    if (problem.state.time > stop_time) problem.stop.request("enough");
     return 0;
   }
 };
@@ -85,10 +85,10 @@ struct StoppedRun {
     EXPECT_LT(problem.state.time, problem.phase().end_time);
     EXPECT_EQ(checkpoint.Write(problem), 0);
   }
-  static OutputParameters output(const std::string &directory)
+  static OutputSettings output(const std::string &directory)
   {
     std::filesystem::create_directories(directory);
-    OutputParameters parameters;
+    OutputSettings parameters;
     parameters.directory = directory;
     return parameters;
   }
