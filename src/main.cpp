@@ -60,11 +60,11 @@ PetscErrorCode ReportErrors(MPI_Comm comm, const SceneInput &input, const Serial
   ErrorEstimate estimate;
   const Scene &scene = input.scene;
   PetscFunctionBeginUser;
-  if (!scene.output.error_estimate) PetscFunctionReturn(0);
+  if (!input.output.error_estimate) PetscFunctionReturn(0);
   if (completed)
     PetscCall(EstimateErrors(
         comm, scene, input.mesh_file.empty() ? nullptr : &from_file, recorder,
-        wish_to_stop(start, scene.output.wall_time),
+        ask_signals_and_clock(start, input.output.wall_time),
         [&progress](const Companion &companion) { progress.show(companion); }, estimate));
   else
     estimate.notes.emplace_back("the run is not complete");
@@ -136,7 +136,7 @@ PetscErrorCode Prepare(MPI_Comm comm, HelpRequest help, const OptionSources &sou
     PetscCall(AdoptOptions(run.stored.options));
   }
   PetscCall(ReadScene(sources, input));
-  if (help == HelpRequest::none) PetscCall(CheckOutputDirectory(comm, input.scene.output));
+  if (help == HelpRequest::none) PetscCall(CheckOutputDirectory(comm, input.output));
   PetscCall(MakeMesh(comm, input, mesh));
   const bool from_file = !input.mesh_file.empty();
   if (from_file) run.from_file = mesh;
@@ -173,11 +173,11 @@ PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
     PetscFunctionReturn(0);
   }
   PetscCall(CheckUnusedOptions(sources, petsc_help, input.warnings));
-  const std::string &directory = input.scene.output.directory;
+  const std::string &directory = input.output.directory;
   Recorder recorder(directory);
-  Checkpoint checkpoint(recorder, input.scene.output, text_of_options(input), prepared.digest, start);
+  Checkpoint checkpoint(recorder, input.output, text_of_options(input), prepared.digest, start);
   if (!prepared.old_directory.empty()) PetscCall(checkpoint.Restore(prepared.stored, problem));
-  PetscCall(PrepareOutputDirectory(comm, input.scene.output));
+  PetscCall(PrepareOutputDirectory(comm, input.output));
   catch_stop_signals();
   if (is_first_process()) std::fputs(scene_report(input).c_str(), stdout);
 

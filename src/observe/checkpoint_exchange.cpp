@@ -1,6 +1,7 @@
 #include "observe/checkpoint_exchange.hpp"
 
 #include "support/first_process.hpp"
+#include "support/petsc_arrays.hpp"
 
 namespace tribogel
 {
@@ -44,12 +45,10 @@ PetscErrorCode NaturalOrders::SetUp(const Problem &problem)
 
 PetscErrorCode Saver::operator()(const std::string &name, const VecHandle &vector)
 {
-  const PetscScalar *values;
-  std::vector<double> all;
+  ConstArray values;
   PetscFunctionBeginUser;
-  PetscCall(VecGetArrayRead(vector, &values));
+  PetscCall(values.Get(vector));
   PetscCall(orders.unknowns.Gather(values, file.numbers[name]));
-  PetscCall(VecRestoreArrayRead(vector, &values));
   PetscFunctionReturn(0);
 }
 
@@ -88,11 +87,10 @@ std::vector<double> Loader::Take(const std::string &name, std::size_t size)
 
 PetscErrorCode Loader::operator()(const std::string &name, VecHandle &vector)
 {
-  PetscScalar *values;
+  MutableArray values;
   PetscFunctionBeginUser;
-  PetscCall(VecGetArray(vector, &values));
+  PetscCall(values.Get(vector));
   PetscCall(orders.unknowns.Scatter(Take(name, orders.unknowns.size()), values));
-  PetscCall(VecRestoreArray(vector, &values));
   PetscFunctionReturn(0);
 }
 
@@ -140,6 +138,19 @@ PetscErrorCode Loader::Table(const std::string &name, std::vector<double> &numbe
       complaint = name;
   }
   PetscCall(Broadcast(comm, numbers));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Loader::Text(const std::string &name, std::string &text)
+{
+  bool first;
+  PetscFunctionBeginUser;
+  PetscCall(RankOf(comm, first));
+  if (first) {
+    const auto found = file.texts.find(name);
+    text = found == file.texts.end() ? "" : found->second;
+  }
+  PetscCall(Broadcast(comm, text));
   PetscFunctionReturn(0);
 }
 

@@ -68,6 +68,9 @@ public:
   /// Any number of numbers, to all processes.
   PetscErrorCode Table(const std::string &name, std::vector<double> &numbers);
 
+  /// To all processes; empty if there is none.
+  PetscErrorCode Text(const std::string &name, std::string &text);
+
   std::string complaint;
 
 private:

@@ -1,11 +1,9 @@
 #include "observe/companions.hpp"
 
 #include "mesh/cylinder.hpp"
-#include "mesh/meridian.hpp"
 #include "observe/cost.hpp"
 #include "support/parse.hpp"
 #include "support/petsc_session.hpp"
-#include "support/stop_signals.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +46,7 @@ int fewest_elements(const Scene &scene)
 class PhaseEnds : public Observer
 {
 public:
-  PhaseEnds(const WishToStop &asked, std::vector<PlateLoads> &loads) : wish(asked), ends(loads) {}
+  PhaseEnds(const StopQuestion &asked, std::vector<PlateLoads> &loads) : ask(asked), ends(loads) {}
 
   PetscErrorCode Start(const Problem &) override { return 0; }
 
@@ -63,13 +61,13 @@ public:
     const MPI_Comm comm =
         PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.stepper.state.U)));
     std::string why;
-    PetscCall(wish(comm, why));
+    PetscCall(ask(comm, why));
     if (!why.empty()) stop.request(why);
     PetscFunctionReturn(0);
   }
 
 private:
-  const WishToStop &wish;
+  const StopQuestion &ask;
   std::vector<PlateLoads> &ends;
 };
 
@@ -83,11 +81,11 @@ PetscErrorCode ScaleTolerance(const Problem &problem, double factor)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Solve(MPI_Comm comm, const Scene &scene, SerialMesh mesh, const WishToStop &wish,
+PetscErrorCode Solve(MPI_Comm comm, const Scene &scene, SerialMesh mesh, const StopQuestion &ask,
                      Companion &companion, bool &stopped)
 {
   Problem problem;
-  PhaseEnds observer(wish, companion.ends);
+  PhaseEnds observer(ask, companion.ends);
   bool completed = false;
   SNES snes;
   PetscFunctionBeginUser;
@@ -135,24 +133,8 @@ std::vector<Companion> time_companions(const Scene &scene)
   return {companion};
 }
 
-WishToStop wish_to_stop(double wall_start, double wall_time)
-{
-  return [=, asked = MPI_Wtime(), longest = 0.0](MPI_Comm comm, std::string &why) mutable -> PetscErrorCode {
-    const double now = MPI_Wtime();
-    PetscFunctionBeginUser;
-    longest = std::max(longest, now - asked);
-    asked = now;
-    enum { signal, time_over, wishes };
-    int wish[wishes] = {caught_stop_signal(), now - wall_start + longest > wall_time};
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, wish, wishes, MPI_INT, MPI_MAX, comm));
-    if (wish[signal] || wish[time_over])
-      why = std::string("stopped by ") + (wish[signal] ? stop_signal_name(wish[signal]) : "-wall_time");
-    PetscFunctionReturn(0);
-  };
-}
-
 PetscErrorCode RunCompanion(MPI_Comm comm, const Scene &scene, const SerialMesh *serial,
-                            const WishToStop &wish, Companion &companion, bool &stopped)
+                            const StopQuestion &ask, Companion &companion, bool &stopped)
 {
   RunCost before, after;
   Scene own = scene;
@@ -162,11 +144,8 @@ PetscErrorCode RunCompanion(MPI_Comm comm, const Scene &scene, const SerialMesh 
   PetscCall(MeasureCost(comm, 0, before));
   {
     const KeptErrors kept; // the run itself is well
-    const auto blocks = serial ? std::vector<MeridianBlock>{} : meridian_blocks(own);
-    SerialMesh mesh = serial                      ? *serial
-                      : own.model == Model::solid ? revolved_mesh(blocks)
-                                                  : serial_mesh(blocks);
-    if (Solve(comm, own, std::move(mesh), wish, companion, stopped) != 0)
+    SerialMesh mesh = serial ? *serial : mesh_of(own.model, meridian_blocks(own));
+    if (Solve(comm, own, std::move(mesh), ask, companion, stopped) != 0)
       companion.failure = kept.text().empty() ? "PETSc failed" : kept.text();
   }
   PetscCall(MeasureCost(comm, 0, after));

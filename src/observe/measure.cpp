@@ -1,5 +1,6 @@
 #include "observe/measure.hpp"
 
+#include "support/petsc_arrays.hpp"
 #include "tribogel/contact/curve/axis_value.hpp"
 #include "tribogel/friction/torque.hpp"
 
@@ -15,19 +16,16 @@ namespace
 /// What the top plate does to its gel through the bonded face; all ranks'.
 PetscErrorCode PlateReaction(const Problem &problem, const double *U, Wrench &reaction)
 {
-  Vec forces;
-  PetscScalar *f;
+  LocalVector forces;
+  MutableArray f;
   PetscFunctionBeginUser;
-  PetscCall(DMGetLocalVector(problem.system.mesh.dm, &forces));
-  PetscCall(VecZeroEntries(forces));
-  PetscCall(VecGetArray(forces, &f));
+  PetscCall(forces.GetZero(problem.system.mesh.dm));
+  PetscCall(f.Get(forces));
   const StepWeights frozen{0}; // the internal variables are those at the end of the step
   const BulkFailure failure =
       problem.system.bulk->AddTopPlateForces(U, problem.stepper.state.history, frozen, f);
   PetscCheck(!failure, PETSC_COMM_SELF, PETSC_ERR_PLIB, "a converged state cannot be evaluated");
   reaction = problem.system.plate_wrench(U, f);
-  PetscCall(VecRestoreArray(forces, &f));
-  PetscCall(DMRestoreLocalVector(problem.system.mesh.dm, &forces));
   const MPI_Comm comm =
       PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(problem.system.mesh.dm)));
   for (Vector3<double> *part : {&reaction.force, &reaction.moment})
@@ -186,15 +184,15 @@ void tabulate(const Problem &problem, const std::vector<SurfaceResults> &surface
 
 PetscErrorCode Measure(const Problem &problem, Measurement &measurement, std::vector<ProfileRow> *profile)
 {
-  Vec U, Udot;
-  const PetscScalar *u, *rate;
+  LocalVector U, Udot;
+  ConstArray u, rate;
   PetscFunctionBeginUser;
   measurement = {};
-  PetscCall(DMGetLocalVector(problem.system.mesh.dm, &U));
-  PetscCall(DMGetLocalVector(problem.system.mesh.dm, &Udot));
+  PetscCall(U.Get(problem.system.mesh.dm));
+  PetscCall(Udot.Get(problem.system.mesh.dm));
   PetscCall(problem.stepper.LocalState(U, Udot));
-  PetscCall(VecGetArrayRead(U, &u));
-  PetscCall(VecGetArrayRead(Udot, &rate));
+  PetscCall(u.Get(U));
+  PetscCall(rate.Get(Udot));
   Wrench reaction;
   PetscCall(PlateReaction(problem, u, reaction));
   read_off(problem, reaction, measurement);
@@ -211,10 +209,6 @@ PetscErrorCode Measure(const Problem &problem, Measurement &measurement, std::ve
       if (profile) tabulate(problem, results.surfaces, *profile);
     }
   }
-  PetscCall(VecRestoreArrayRead(Udot, &rate));
-  PetscCall(VecRestoreArrayRead(U, &u));
-  PetscCall(DMRestoreLocalVector(problem.system.mesh.dm, &Udot));
-  PetscCall(DMRestoreLocalVector(problem.system.mesh.dm, &U));
   PetscFunctionReturn(0);
 }
 

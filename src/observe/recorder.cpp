@@ -190,8 +190,7 @@ PetscErrorCode Recorder::Record(const Problem &problem, const StepReport &report
   PetscCall(Write(problem, [&] { return history.append(line_of(history_columns(), row)); }));
   if (report.ends_phase) {
     last_profile = std::move(surfaces);
-    phases.push_back({row.phase, row.time, row.approach, row.rotation, row.rate, row.measurement,
-                      displacement_at(last_profile, 0),
+    phases.push_back({row, displacement_at(last_profile, 0),
                       displacement_at(last_profile, row.measurement.contact_radius)});
     PetscCall(Write(problem, [&] { return profile.append(profile_of(phases.back())); }));
   }

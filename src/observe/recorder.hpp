@@ -15,22 +15,20 @@
 namespace tribogel
 {
 
-/// What the end of a phase looked like.
-struct PhaseEnd {
-  int phase; ///< counted from 1
-  double time, approach, rotation, rate;
-  Measurement measurement;
-  double centre_displacement,
-      rim_displacement; ///< of the bottom surface, down, at the axis and at the contact radius [mm]
-};
-
-/// One accepted step as the files and the console show it.
+/// One accepted step; columns.hpp says what of it is shown where. A new member is one more column.
 struct HistoryRow {
   double time, approach, rotation, rate, step;
   int phase; ///< counted from 1
   Measurement measurement;
   EnergyBalance energy;
   StepReport report;
+};
+
+/// The last step of a phase, and what is known at such only.
+struct PhaseEnd : HistoryRow {
+  double centre_displacement = undefined,
+         rim_displacement =
+             undefined; ///< of the bottom surface, down, at the axis and at the contact radius [mm]
 };
 
 /// Where the run in `directory` keeps its checkpoint.

@@ -25,7 +25,7 @@ public:
   }
   PetscErrorCode SetUp(MPI_Comm comm, const Scene &scene, const std::vector<MeridianBlock> &blocks)
   {
-    return SetUp(comm, scene, scene.model == Model::solid ? revolved_mesh(blocks) : serial_mesh(blocks));
+    return SetUp(comm, scene, mesh_of(scene.model, blocks));
   }
 
   /// Stepper::Run.

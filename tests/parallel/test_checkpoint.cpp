@@ -85,10 +85,10 @@ struct StoppedRun {
     EXPECT_LT(problem.stepper.state.time, problem.stepper.phase().end_time);
     EXPECT_EQ(checkpoint.Write(problem), 0);
   }
-  static OutputParameters output(const std::string &directory)
+  static OutputSettings output(const std::string &directory)
   {
     std::filesystem::create_directories(directory);
-    OutputParameters parameters;
+    OutputSettings parameters;
     parameters.directory = directory;
     return parameters;
   }

@@ -19,7 +19,7 @@ Scene short_scene(int elements, int order)
   return scene;
 }
 
-const WishToStop never = [](MPI_Comm, std::string &) -> PetscErrorCode { return 0; };
+const StopQuestion never = [](MPI_Comm, std::string &) -> PetscErrorCode { return 0; };
 
 } // namespace
 
@@ -82,7 +82,7 @@ TEST(companions, AreStoppedOnRequest)
 {
   const Scene scene = short_scene(4, 1);
   int asked = 0;
-  const WishToStop soon = [&asked](MPI_Comm, std::string &why) -> PetscErrorCode {
+  const StopQuestion soon = [&asked](MPI_Comm, std::string &why) -> PetscErrorCode {
     if (++asked == 5) why = "enough";
     return 0;
   };
