@@ -194,8 +194,8 @@ PetscErrorCode Measure(Problem &problem, Measurement &measurement, std::vector<P
   read_off(problem, reaction, measurement);
   if (problem.contact) {
     ContactResults results;
-    PetscCall(
-        problem.contact->Results(problem.frames(problem.state.time, problem.state.step), u, rate, results));
+    PetscCall(problem.contact->Results(problem.frames(problem.state.time, problem.state.step), u, rate,
+                                       results, problem.friction_now()));
     reaction += results.wall;
     read_off(problem, reaction, measurement);
     if (problem.contact->between_gels()) {

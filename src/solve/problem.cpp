@@ -87,6 +87,7 @@ PetscErrorCode Problem::SetUpFields()
                 static_cast<Vec>(before)})
     PetscCall(VecZeroEntries(v));
   state.history = bulk->InitialHistory();
+  if (contact) state.friction_history = contact->InitialHistory();
 
   PetscCall(DMGetLocalToGlobalMapping(mesh.dm, &mapping));
   PetscCall(ISLocalToGlobalMappingGetIndices(mapping, &to_global));
@@ -144,6 +145,19 @@ StepWeights Problem::weights(double time) const
   if (steady()) return {std::numeric_limits<double>::infinity(), 1}; // the dashpots have had all the time
   const bool goes_on = scene.time.rule == TimeRule::sdirk2 && stage.index == 0;
   return {solve_length(time), goes_on ? sdirk2::reach : 1};
+}
+
+/// The second stage goes on from where the first ended if it is damped: by Euler's rule.
+FrictionMemory Problem::friction_memory(double time) const
+{
+  if (stage.index == 0) return {state.friction_history.values, weights(time)};
+  if (!stage.damped) return {stage.friction_start.values, weights(time)};
+  return {stage.friction_end.values, {time - state.time - stage.length}};
+}
+
+FrictionMemory Problem::friction_now() const
+{
+  return {state.friction_history.values, {steady() ? std::numeric_limits<double>::infinity() : 0}};
 }
 
 PlateFrames Problem::frames(double time, double step) const
@@ -259,7 +273,8 @@ PetscErrorCode Problem::AddResidual(double time, const double *U, const double *
   if (steady()) Udot = nullptr;
   PetscCall(PetscLogEventBegin(events.contact_residual, 0, 0, 0, 0));
   if (contact)
-    PetscCall(contact->AddResidual(frames(time, solve_length(time)), U, Udot, F, sizes, contact_failure));
+    PetscCall(contact->AddResidual(frames(time, solve_length(time)), friction_memory(time), U, Udot, F, sizes,
+                                   contact_failure));
   PetscCall(PetscLogEventEnd(events.contact_residual, 0, 0, 0, 0));
   PetscFunctionReturn(0);
 }
@@ -276,7 +291,8 @@ PetscErrorCode Problem::AddJacobian(double time, const double *U, const double *
     shift = 0;
   }
   if (contact)
-    PetscCall(contact->AddJacobian(frames(time, solve_length(time)), U, Udot, shift, A, contact_failure));
+    PetscCall(contact->AddJacobian(frames(time, solve_length(time)), friction_memory(time), U, Udot, shift, A,
+                                   contact_failure));
   PetscCall(PetscLogEventEnd(events.contact_jacobian, 0, 0, 0, 0));
   PetscFunctionReturn(0);
 }

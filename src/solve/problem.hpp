@@ -53,13 +53,14 @@ struct WorstResidual {
 
 /// The solve at hand: Euler's rule has one a step, SDIRK2 two. Nothing of it outlives the step.
 struct Stage {
-  int index = 0;         ///< of what follows, the first (0) has nothing and leaves it to the second (1)
-  double time = 0;       ///< of the stage's end [s]
-  double length = 0;     ///< [s]
-  VecHandle U;           ///< where the first stage ended
-  History history;       ///< internal variables where the second starts
-  bool damped = false;   ///< the second goes on from the first by Euler's rule
-  PlateLoads loads{};    ///< at the end of the first
+  int index = 0;     ///< of what follows, the first (0) has nothing and leaves it to the second (1)
+  double time = 0;   ///< of the stage's end [s]
+  double length = 0; ///< [s]
+  VecHandle U;       ///< where the first stage ended
+  History history;   ///< internal variables where the second starts
+  FrictionHistory friction_start, friction_end; ///< where the second starts, and where the first ended
+  bool damped = false;                          ///< the second goes on from the first by Euler's rule
+  PlateLoads loads{};                           ///< at the end of the first
   double dissipated = 0; ///< the first stage's part of the step's, this rank's cells [N mm]
   PetscInt newton_iterations = 0, linear_iterations = 0; ///< of the first
 };
@@ -121,6 +122,10 @@ public:
     return stage.index == 0 ? state.history : stage.history;
   } ///< internal variables
 
+  /// What the contact conditions of the solve at hand are told, and those of the accepted state.
+  FrictionMemory friction_memory(double time) const;
+  FrictionMemory friction_now() const;
+
   Scene scene;
   Mesh mesh;
   std::unique_ptr<Bulk> bulk;
@@ -179,6 +184,9 @@ public:
   PetscErrorCode AcceptStep(PetscReal time, Vec U);
   PetscErrorCode EvaluateEnd(PetscReal time, History &next,
                              CellEnergy &energy); ///< of the solve that converged last
+  /// What friction remembers after the solve at hand, which ended at U with that rate. Collective.
+  PetscErrorCode AdvanceFriction(PetscReal time, const FrictionMemory &memory, Vec U, Vec rate,
+                                 FrictionHistory &next);
   PetscErrorCode JudgeResidual(Vec F, bool has_iterated, bool &converged);
   PetscErrorCode FirstStep(PetscReal &step, PetscReal &unresolved) const; ///< of the phase [s]
   PetscErrorCode SumPlateLoads(PlateLoads &loads) const;

@@ -148,6 +148,7 @@ PetscErrorCode Problem::AcceptStep(PetscReal time, Vec U)
   StepReport report;
   CellEnergy energy;
   History next;
+  FrictionHistory remembered;
   PetscFunctionBeginUser;
   PetscCall(PetscLogEventBegin(events.accept_step, 0, 0, 0, 0));
   const double step = time - state.time, until_touch = TimeUntilTouch();
@@ -155,6 +156,10 @@ PetscErrorCode Problem::AcceptStep(PetscReal time, Vec U)
   PetscCall(SetRates(step, U));
   PetscCall(EvaluateEnd(time, next, energy));
   if (scene.time.rule == TimeRule::sdirk2) PetscCall(LargestStrain(next, state.largest_strain));
+  if (!state.friction_history.values.empty()) {
+    PetscCall(AdvanceFriction(time, friction_memory(time), U, state.Udot, remembered));
+    state.friction_history = std::move(remembered);
+  }
   stage.index = 0;
   state.history = std::move(next);
   state.stored = energy.stored;
