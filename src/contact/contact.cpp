@@ -60,7 +60,7 @@ PetscErrorCode Contact::SetUp(MPI_Comm on, const Mesh &mesh, const Scene &scene)
 {
   PetscFunctionBeginUser;
   comm = on;
-  if (scene.has_top) {
+  if (scene.has_contact()) {
     gels.emplace_back();
     PetscCall(gels.back().SetUp(comm, mesh, scene, mesh.slave, {}));
   }

@@ -50,8 +50,7 @@ ContactOperator::ContactOperator(const Mesh &mesh, const Scene &scene, const Sur
     : is(std::make_unique<Operators>())
 {
   const bool wall = !on_crease.empty();
-  const double softer = std::min(scene.top.material.equilibrium.shear_modulus(),
-                                 scene.bottom.material.equilibrium.shear_modulus());
+  const double softer = scene.softer_modulus();
   for (const SurfaceNode &node : slave.node) is->carries.push_back(node.multiplier);
   is->friction = scene.friction;
   is->on_crease = std::move(on_crease);

@@ -56,7 +56,7 @@ void WallOnPlate::SetUp(const Mesh &both, const Scene &scene, int body, const Su
 {
   mesh = &both;
   up = upwards(scene, body);
-  spans_both = !scene.has_top;
+  spans_both = !scene.has_top();
   const Specimen &specimen = body == top_body ? scene.top : scene.bottom;
   const std::vector<NodeWeight> weights =
       weights_of(wall, mesh->dim, mesh->order, specimen.material.equilibrium.shear_modulus());
@@ -66,7 +66,7 @@ void WallOnPlate::SetUp(const Mesh &both, const Scene &scene, int body, const Su
     foot = std::min(foot, height(node));
     head = std::max(head, height(node));
   }
-  extent = scene.bottom.height + (scene.has_top ? scene.initial_gap + scene.top.height : 0);
+  extent = scene.gel_height() + scene.gap();
   for (std::size_t a = 0; a < wall.node.size(); ++a) {
     const SurfaceNode &node = wall.node[a];
     if (node.local < 0 || !node.multiplier || taken[a]) continue;

@@ -28,8 +28,8 @@ bool stands_in(const GmshElement &element, const char *group)
 class Builder
 {
 public:
-  Builder(const GmshFile &given, bool top, int element_order)
-      : file(given), has_top(top), order(element_order), parts(given.elements.size())
+  Builder(const GmshFile &given, Arrangement expected, int element_order)
+      : file(given), arrangement(expected), order(element_order), parts(given.elements.size())
   {
     mesh.dim = 3;
   }
@@ -44,8 +44,7 @@ public:
     for (const GmshElement &element : file.elements)
       if (element.dim == 2) name_face(element);
     if (!left_out.empty())
-      bodies.warnings.push_back(std::string("hexahedra that are not in the physical ") +
-                                (has_top ? "volumes top and bottom" : "volume bottom") + " are left out (" +
+      bodies.warnings.push_back("hexahedra that are not in the physical " + volumes() + " are left out (" +
                                 in_number(left_out.size()) + "element " + std::to_string(left_out.front()) +
                                 ")");
     for (const auto &[vertices, face] : faces)
@@ -62,21 +61,38 @@ private:
     int cells = 0;
   };
 
+  std::string volumes() const
+  {
+    return arrangement == Arrangement::gel_on_gel     ? "volumes top and bottom"
+           : arrangement == Arrangement::gel_on_rigid ? "volume top"
+                                                      : "volume bottom";
+  }
+
+  std::string surfaces() const
+  {
+    return arrangement == Arrangement::gel_on_gel ? "top_plate, bottom_plate, top_contact and bottom_contact"
+           : arrangement == Arrangement::gel_on_rigid ? "top_plate and top_contact"
+                                                      : "top_plate and bottom_plate";
+  }
+
+  std::string condition() const
+  {
+    return arrangement == Arrangement::gel_on_gel     ? ""
+           : arrangement == Arrangement::gel_on_rigid ? "with -counterface rigid "
+                                                      : "with -specimens bottom ";
+  }
+
   /// What must be there, all of it in the refusal.
   void expect_groups() const
   {
     const auto expect = [&](int dim, const char *name) {
       for (const GmshElement &element : file.elements)
         if (element.dim == dim && stands_in(element, name)) return;
-      throw UserError{no_such_group(file, dim, name) + "; allowed: " +
-                      (has_top
-                           ? "volumes top and bottom, surfaces top_plate, bottom_plate, top_contact and "
-                             "bottom_contact"
-                           : "with -specimens bottom volume bottom, surfaces top_plate and bottom_plate")};
+      throw UserError{no_such_group(file, dim, name) + "; allowed: " + condition() + volumes() +
+                      ", surfaces " + surfaces()};
     };
-    expect(3, "bottom");
-    if (has_top) expect(3, "top");
-    for (const SurfaceGroup &group : surface_groups(has_top)) expect(2, group.name);
+    for (const int body : bodies_of(arrangement)) expect(3, body_names[body]);
+    for (const SurfaceGroup &group : surface_groups(arrangement)) expect(2, group.name);
   }
 
   [[noreturn]] static void complain(const GmshElement &element, const std::string &what)
@@ -101,7 +117,8 @@ private:
 
   void add_cell(const GmshElement &element)
   {
-    const bool in[2] = {stands_in(element, "bottom"), has_top && stands_in(element, "top")};
+    bool in[2] = {false, false};
+    for (const int body : bodies_of(arrangement)) in[body] = stands_in(element, body_names[body]);
     if (!in[0] && !in[1]) return left_out.push_back(element.tag);
     if (in[0] && in[1]) complain(element, "stands in top and in bottom; allowed: one of them");
     std::vector<Place> given;
@@ -204,7 +221,7 @@ private:
   {
     KnownFace *const face = face_of(element);
     bool known = false;
-    for (const SurfaceGroup &group : surface_groups(has_top)) {
+    for (const SurfaceGroup &group : surface_groups(arrangement)) {
       if (!stands_in(element, group.name)) continue;
       known = true;
       const std::string where = std::string("of ") + group.name + " ";
@@ -235,7 +252,7 @@ private:
   }
 
   const GmshFile &file;
-  bool has_top;
+  Arrangement arrangement;
   int order;
   GmshBodies bodies;
   SerialMesh &mesh = bodies.mesh;
@@ -249,14 +266,22 @@ private:
 
 } // namespace
 
-std::vector<SurfaceGroup> surface_groups(bool has_top)
+std::vector<SurfaceGroup> surface_groups(Arrangement arrangement)
 {
-  if (!has_top)
+  if (arrangement == Arrangement::single_gel)
     return {{"top_plate", Side::top_plate, bottom_body}, {"bottom_plate", Side::bottom_plate, bottom_body}};
+  if (arrangement == Arrangement::gel_on_rigid)
+    return {{"top_plate", Side::top_plate, top_body}, {"top_contact", Side::slave, top_body}};
   return {{"top_plate", Side::top_plate, top_body},
           {"bottom_plate", Side::bottom_plate, bottom_body},
           {"top_contact", Side::slave, top_body},
           {"bottom_contact", Side::master, bottom_body}};
+}
+
+std::vector<int> bodies_of(Arrangement arrangement)
+{
+  if (arrangement == Arrangement::gel_on_gel) return {bottom_body, top_body};
+  return {arrangement == Arrangement::gel_on_rigid ? top_body : bottom_body};
 }
 
 std::array<int, 8> middle_key(const std::vector<int> &vertices)
@@ -268,15 +293,15 @@ std::array<int, 8> middle_key(const std::vector<int> &vertices)
   return key;
 }
 
-GmshBodies bodies_of_gmsh(std::istream &stream, bool has_top, int order)
+GmshBodies bodies_of_gmsh(std::istream &stream, Arrangement arrangement, int order)
 {
   const GmshFile file = read_gmsh(stream);
-  return Builder(file, has_top, order).build();
+  return Builder(file, arrangement, order).build();
 }
 
-SerialMesh mesh_of_gmsh(std::istream &stream, bool has_top, int order)
+SerialMesh mesh_of_gmsh(std::istream &stream, Arrangement arrangement, int order)
 {
-  return bodies_of_gmsh(stream, has_top, order).mesh;
+  return bodies_of_gmsh(stream, arrangement, order).mesh;
 }
 
 } // namespace tribogel

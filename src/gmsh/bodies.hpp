@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/blocks.hpp"
+#include "tribogel/scene/scene.hpp"
 
 #include <istream>
 #include <string>
@@ -16,7 +17,10 @@ struct SurfaceGroup {
   Side side;
   int body;
 };
-std::vector<SurfaceGroup> surface_groups(bool has_top);
+std::vector<SurfaceGroup> surface_groups(Arrangement arrangement);
+
+/// Bodies whose volumes the file must name, from below.
+std::vector<int> bodies_of(Arrangement arrangement);
 
 /// The volumes' names.
 inline constexpr const char *body_names[2] = {"bottom", "top"};
@@ -45,13 +49,13 @@ inline constexpr double same_place = 1e-4;
 /// The key of SerialMesh::middle.
 std::array<int, 8> middle_key(const std::vector<int> &vertices);
 
-/// The volumes `top` and `bottom`, or `bottom` alone, with these surfaces. Order 2 takes the middles of
+/// The volumes that the arrangement has, with its surfaces. Order 2 takes the middles of
 /// edges, faces and cells from hexahedra of second order; else they are means of the corners. Ranks get
 /// sectors about the z axis, the axis of the plates. Throws UserError, without the file's name, if this is
 /// not what the file holds; whether the bodies are sound is for gmsh/checks.hpp to say.
-GmshBodies bodies_of_gmsh(std::istream &stream, bool has_top, int order);
+GmshBodies bodies_of_gmsh(std::istream &stream, Arrangement arrangement, int order);
 
 /// Their mesh alone.
-SerialMesh mesh_of_gmsh(std::istream &stream, bool has_top, int order);
+SerialMesh mesh_of_gmsh(std::istream &stream, Arrangement arrangement, int order);
 
 } // namespace tribogel

@@ -174,7 +174,7 @@ void expect_joined(GmshBodies &bodies, const std::vector<Touch> &touches)
   }
 }
 
-void expect_held(GmshBodies &bodies, bool has_top)
+void expect_held(GmshBodies &bodies, Arrangement arrangement)
 {
   const SerialMesh &mesh = bodies.mesh;
   std::set<int> held[side_count]; // parts
@@ -192,7 +192,7 @@ void expect_held(GmshBodies &bodies, bool has_top)
     const bool below = on_plate(Side::bottom_plate, c), above = on_plate(Side::top_plate, c);
     if (!below && !above)
       loose.push_back(c);
-    else if (!has_top && below != above)
+    else if (arrangement == Arrangement::single_gel && below != above)
       on_one.push_back(c);
   }
   if (!loose.empty()) {
@@ -200,9 +200,9 @@ void expect_held(GmshBodies &bodies, bool has_top)
     throw UserError{std::string("cells of ") + body_names[body] + " are held by no plate (" +
                     in_number(loose.size()) + place(loose.front()) +
                     "): no chain of whole faces joins them to one of " +
-                    (!has_top           ? "bottom_plate or top_plate"
-                     : body == top_body ? "top_plate"
-                                        : "bottom_plate") +
+                    (arrangement == Arrangement::single_gel ? "bottom_plate or top_plate"
+                     : body == top_body                     ? "top_plate"
+                                                            : "bottom_plate") +
                     "; allowed: parts with a face on their plate"};
   }
   if (!on_one.empty())

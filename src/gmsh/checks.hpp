@@ -27,12 +27,12 @@ void expect_joined(GmshBodies &bodies, const std::vector<Touch> &touches);
 
 /// Each part, all that is joined through faces, has a face on its plate. An edge or a corner in common is a
 /// hinge.
-void expect_held(GmshBodies &bodies, bool has_top);
+void expect_held(GmshBodies &bodies, Arrangement arrangement);
 
 /// No face that lies in a plate's plane, or that goes on where a contact face ends, is in no group. A
 /// physical surface of any other name says that a face is meant to be free. `travel` is how far the top plate
 /// goes down [mm]: other faces without a group that may touch then are warned of.
-void expect_whole_groups(GmshBodies &bodies, bool has_top, double travel);
+void expect_whole_groups(GmshBodies &bodies, Arrangement arrangement, double travel);
 
 /// The bodies do not touch where they are no contact faces.
 void expect_apart(GmshBodies &bodies, const std::vector<Touch> &touches);

@@ -65,8 +65,33 @@ struct Extent {
   }
 };
 
+double height_of(const SerialMesh &mesh, int body)
+{
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const SerialMesh::Cell &cell : mesh.cell)
+    if (cell.body == body)
+      for (const int v : cell.vertex) {
+        low = std::min(low, mesh.vertex[v][2]);
+        high = std::max(high, mesh.vertex[v][2]);
+      }
+  return high - low;
+}
+
+void measure_bottom(const Extent &upper, const char *upper_name, const Extent &lower, SpecimenSizes &sizes)
+{
+  if (std::abs(upper.high) > flat * std::abs(upper.high - lower.low))
+    throw UserError{std::string(upper_name) + " has its highest point at z = " + to_text(upper.high) +
+                    " mm; allowed: z = 0 (lengths in mm, the plates' axis is x = y = 0)"};
+  if (!(lower.high < 0))
+    throw UserError{"bottom_plate at z = " + to_text(lower.high) + " mm; allowed: z < 0, below the gel"};
+  sizes.height[bottom_body] = -lower.low;
+  sizes.radius[bottom_body] = std::sqrt(upper.area / std::numbers::pi);
+  sizes.centroid[bottom_body] = upper.centroid();
+  sizes.around_axis[bottom_body] = upper.around_axis();
+}
+
 /// Heights, and whether the faces are where they have to be.
-SpecimenSizes measure(const SerialMesh &mesh, bool has_top)
+SpecimenSizes measure(const SerialMesh &mesh, Arrangement arrangement)
 {
   SpecimenSizes sizes;
   Extent extent[side_count];
@@ -86,31 +111,24 @@ SpecimenSizes measure(const SerialMesh &mesh, bool has_top)
     }
   }
   const auto of = [&](Side side) -> const Extent & { return extent[static_cast<int>(side)]; };
-  const Extent &upper = of(has_top ? Side::master : Side::top_plate), &lower = of(Side::bottom_plate);
-  const char *const upper_name = has_top ? "bottom_contact" : "top_plate";
-  const double height = upper.high - lower.low;
-  const double tolerance = flat * std::abs(height);
-  for (const SurfaceGroup &group : surface_groups(has_top)) {
+  for (const SurfaceGroup &group : surface_groups(arrangement)) {
     const Extent &side = of(group.side);
     if (group.side != Side::top_plate && group.side != Side::bottom_plate) continue;
-    if (side.high - side.low > tolerance)
+    if (side.high - side.low > flat * height_of(mesh, group.body))
       throw UserError{std::string(group.name) + " reaches from z = " + to_text(side.low) + " mm to " +
                       to_text(side.high) + " mm; allowed: a horizontal plane, the plate is one"};
   }
-  if (std::abs(upper.high) > tolerance)
-    throw UserError{std::string(upper_name) + " has its highest point at z = " + to_text(upper.high) +
-                    " mm; allowed: z = 0 (lengths in mm, the plates' axis is x = y = 0)"};
-  if (!(lower.high < 0))
-    throw UserError{"bottom_plate at z = " + to_text(lower.high) + " mm; allowed: z < 0, below the gel"};
-  sizes.height[bottom_body] = -lower.low;
-  sizes.radius[bottom_body] = std::sqrt(upper.area / std::numbers::pi);
-  sizes.centroid[bottom_body] = upper.centroid();
-  sizes.around_axis[bottom_body] = upper.around_axis();
-  if (!has_top) return sizes;
+  const Extent *upper = nullptr; // of the bottom gel
+  if (arrangement != Arrangement::gel_on_rigid) {
+    const bool below_other = arrangement == Arrangement::gel_on_gel;
+    upper = &of(below_other ? Side::master : Side::top_plate);
+    measure_bottom(*upper, below_other ? "bottom_contact" : "top_plate", of(Side::bottom_plate), sizes);
+  }
+  if (arrangement == Arrangement::single_gel) return sizes;
   const Extent &slave = of(Side::slave);
-  if (slave.low < -tolerance)
+  if (slave.low < -flat * std::abs(of(Side::top_plate).low))
     throw UserError{"top_contact has its lowest point at z = " + to_text(slave.low) +
-                    " mm; allowed: z >= 0, above bottom_contact"};
+                    " mm; allowed: z >= 0, above " + (upper ? "bottom_contact" : "the rigid plane z = 0")};
   if (!(of(Side::top_plate).low > slave.high))
     throw UserError{"top_plate at z = " + to_text(of(Side::top_plate).low) +
                     " mm; allowed: above top_contact"};
@@ -119,7 +137,7 @@ SpecimenSizes measure(const SerialMesh &mesh, bool has_top)
   sizes.radius[top_body] = std::sqrt(slave.area / std::numbers::pi);
   sizes.centroid[top_body] = slave.centroid();
   sizes.around_axis[top_body] = slave.around_axis();
-  sizes.unevenness = slave.high - slave.low + upper.high - upper.low;
+  sizes.unevenness = slave.high - slave.low + (upper ? upper->high - upper->low : 0);
   return sizes;
 }
 
@@ -141,12 +159,12 @@ std::string read_file(SceneInput &input, SerialMesh &mesh, SpecimenSizes &sizes)
   try {
     double travel = 0;
     for (const Phase &phase : scene.schedule) travel = std::max(travel, phase.end_approach);
-    GmshBodies bodies = bodies_of_gmsh(stream, scene.has_top, scene.mesh.element_order);
+    GmshBodies bodies = bodies_of_gmsh(stream, scene.arrangement, scene.mesh.element_order);
     const std::vector<Touch> touches = touches_of(bodies);
     expect_joined(bodies, touches);
-    expect_held(bodies, scene.has_top);
-    sizes = measure(bodies.mesh, scene.has_top);
-    expect_whole_groups(bodies, scene.has_top, travel);
+    expect_held(bodies, scene.arrangement);
+    sizes = measure(bodies.mesh, scene.arrangement);
+    expect_whole_groups(bodies, scene.arrangement, travel);
     expect_apart(bodies, touches);
     for (const std::string &warning : bodies.warnings) input.warnings.push_back(file + warning);
     mesh = std::move(bodies.mesh);

@@ -49,11 +49,12 @@ public:
     judge(group, missing, "lie in its plane", "the plate does not hold them");
   }
 
-  /// `other` is the side that it meets.
+  /// `other` is the side that it meets; a bottom plate is the plane z = 0.
   void contact(const Group &group, Side other)
   {
-    const double reach = radius(other);
-    const auto [lowest_of_other, highest_of_other] = heights(other);
+    const bool on_plane = other == Side::bottom_plate; // z = 0, without end
+    const double reach = on_plane ? std::numeric_limits<double>::infinity() : radius(other);
+    const auto [lowest_of_other, highest_of_other] = on_plane ? std::array{0.0, 0.0} : heights(other);
     std::vector<std::size_t> certain, suspicious;
     const std::vector<bool> goes_on = continuations(group);
     for (std::size_t f = 0; f < bodies.outer.size(); ++f) {
@@ -69,7 +70,7 @@ public:
     judge(group, certain, "go on where its faces end", "they meet nothing");
     if (!suspicious.empty())
       bodies.warnings.push_back(found(group, suspicious) +
-                                " look at the other gel, which may come as near as that" +
+                                " look at what the gel is pressed on, which may come as near as that" +
                                 consequence("they meet nothing") + in_words_allowed(group));
   }
 
@@ -248,14 +249,16 @@ private:
 
 } // namespace
 
-void expect_whole_groups(GmshBodies &bodies, bool has_top, double travel)
+void expect_whole_groups(GmshBodies &bodies, Arrangement arrangement, double travel)
 {
   Examination examination(bodies, travel);
-  examination.plate({"bottom_plate", Side::bottom_plate, bottom_body, -1});
-  examination.plate({"top_plate", Side::top_plate, has_top ? top_body : bottom_body, 1});
-  if (!has_top) return;
-  examination.contact({"bottom_contact", Side::master, bottom_body, 1}, Side::slave);
-  examination.contact({"top_contact", Side::slave, top_body, -1}, Side::master);
+  for (const SurfaceGroup &group : surface_groups(arrangement))
+    if (group.side == Side::bottom_plate || group.side == Side::top_plate)
+      examination.plate({group.name, group.side, group.body, group.side == Side::top_plate ? 1.0 : -1.0});
+  if (arrangement == Arrangement::single_gel) return;
+  const bool on_gel = arrangement == Arrangement::gel_on_gel;
+  if (on_gel) examination.contact({"bottom_contact", Side::master, bottom_body, 1}, Side::slave);
+  examination.contact({"top_contact", Side::slave, top_body, -1}, on_gel ? Side::master : Side::bottom_plate);
 }
 
 } // namespace tribogel

@@ -130,26 +130,25 @@ std::vector<double> radii_under_rim(const Scene &scene, const SizeField &field)
 std::vector<MeridianBlock> meridian_blocks(const Scene &scene)
 {
   const MeshParameters &mesh = scene.mesh;
-  const Specimen &leading = scene.has_top ? scene.top : scene.bottom;
-  const Specimen &bottom = scene.bottom;
-  const double zone = zone_over_size * std::min({leading.radius, leading.height, bottom.height});
+  const Specimen &leading = scene.upper_gel();
+  double smallest = leading.radius;
+  for (const Specimen *gel : scene.gels()) smallest = std::min(smallest, gel->height);
+  const double zone = zone_over_size * smallest;
   const SizeField s = size_field(leading.radius, mesh.elements_radial, mesh, zone);
   std::vector<MeridianBlock> blocks;
 
-  SizeField bottom_spacing = s;
-  if (mesh.bottom_elements_radial > 0)
-    bottom_spacing = size_field(leading.radius, mesh.bottom_elements_radial, mesh, zone);
-  MeridianBlock lower{bottom_body,
-                      scene.has_top ? radii_under_rim(scene, bottom_spacing)
-                                    : points_between(0, bottom.radius, false, true, bottom_spacing),
-                      points_between(-bottom.height, 0, true, true, bottom_spacing),
-                      Side::axis,
-                      Side::wall,
-                      Side::bottom_plate,
-                      scene.has_top ? Side::master : Side::top_plate};
-  blocks.push_back(lower);
-
-  if (scene.has_top) {
+  if (scene.has_bottom()) {
+    SizeField bottom_spacing = s;
+    if (mesh.bottom_elements_radial > 0)
+      bottom_spacing = size_field(leading.radius, mesh.bottom_elements_radial, mesh, zone);
+    const Specimen &bottom = scene.bottom;
+    blocks.push_back({bottom_body,
+                      scene.has_top() ? radii_under_rim(scene, bottom_spacing)
+                                      : points_between(0, bottom.radius, false, true, bottom_spacing),
+                      points_between(-bottom.height, 0, true, true, bottom_spacing), Side::axis, Side::wall,
+                      Side::bottom_plate, scene.has_top() ? Side::master : Side::top_plate});
+  }
+  if (scene.has_top()) {
     blocks.push_back({top_body, points_between(0, scene.top.radius, false, true, s),
                       points_between(scene.initial_gap, scene.initial_gap + scene.top.height, true, true, s),
                       Side::axis, Side::wall, Side::slave, Side::top_plate});

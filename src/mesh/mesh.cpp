@@ -57,13 +57,15 @@ PetscErrorCode Mesh::Build(MPI_Comm comm, const Scene &scene, const SerialMesh &
   PetscCall(Place());
   PetscCall(Shape(serial));
   if (order == 2) PetscCall(PlaceMiddles(serial));
-  if (scene.has_top) {
+  if (scene.has_contact()) {
     PetscCall(GatherSurface(*this, Side::slave, top_body, 0, slave));
-    PetscCall(GatherSurface(*this, Side::master, bottom_body, 0, master));
+    if (scene.has_bottom())
+      PetscCall(GatherSurface(*this, Side::master, bottom_body, 0, master));
+    else
+      master = rigid_plane(dim, order, slave);
   }
   for (int body : {bottom_body, top_body})
-    if (scene.plate_contact && (body == bottom_body || scene.has_top))
-      PetscCall(GatherSurface(*this, Side::wall, body, 1, wall[body]));
+    if (scene.plate_contact) PetscCall(GatherSurface(*this, Side::wall, body, 1, wall[body]));
   if (order == 1) PetscCall(DropMiddles());
   natural = {};
   PetscFunctionReturn(0);

@@ -63,7 +63,8 @@ public:
   int order = 2;
   std::vector<Node> nodes;
   std::vector<MeshCell> cells; ///< those of this rank; each cell is on one rank
-  Surface slave, master; ///< the gels' contact faces, a chain's from the axis outwards; empty without contact
+  Surface slave, master; ///< contact faces of the top gel and of what it is pressed on, a chain's from the
+                         ///< axis outwards; empty without contact
   Surface wall[2];       ///< each body's side wall, a chain's upwards; empty unless the walls may touch
   PetscInt unknowns = 0; ///< in all
 
@@ -97,6 +98,9 @@ struct CellPoint {
   int slot; ///< 0 to 8 or 26
 };
 PetscErrorCode CellPoints(DM dm, int dim, PetscInt cell, std::vector<CellPoint> &points);
+
+/// The plane z = 0 as a master: one facet, without unknowns, that reaches far beyond what is pressed on it.
+Surface rigid_plane(int dim, int order, const Surface &pressed);
 
 /// Facets of `body` with label `side`, gathered on every rank, in an order that does not depend on the number
 /// of ranks. A chain runs towards increasing R (direction 0) or Z (direction 1). Collective.

@@ -42,8 +42,7 @@ int split_of_lower_edge(const Scene &scene, const MeridianBlock &top, double zon
   if (scene.model != Model::axisymmetric) return 0;
   double rate = 0;
   for (const Phase &phase : scene.schedule) rate = std::max(rate, std::abs(phase.rate));
-  const double modulus = std::min(scene.top.material.equilibrium.shear_modulus(),
-                                  scene.bottom.material.equilibrium.shear_modulus());
+  const double modulus = scene.softer_modulus();
   const auto mu = [&](double v) { return scene.friction.coefficient(v, modulus); };
   if (!(std::max(mu(0), mu(rate * top.R.back())) >= holding_friction)) return 0;
   const int cells = 1 << scene.mesh.refinements; // those that come of one

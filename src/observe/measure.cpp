@@ -41,7 +41,7 @@ void read_off(const Problem &problem, const Wrench &reaction, Measurement &m)
   const Vector3<double> centre(0, 0, problem.plate_height());
   const Vector3<double> force = -reaction.force, moment = -(reaction.moment - centre.cross(reaction.force));
   // The frame of a gel that spans both plates does not turn.
-  const double angle = problem.scene.has_top ? problem.phase().rotation(problem.state.time) : 0;
+  const double angle = problem.scene.has_top() ? problem.phase().rotation(problem.state.time) : 0;
   const double c = std::cos(angle), s = std::sin(angle);
   m.transverse_force = {c * force[0] - s * force[1], s * force[0] + c * force[1]};
   m.bending_moment = {c * moment[0] - s * moment[1], s * moment[0] + c * moment[1]};
@@ -168,6 +168,7 @@ void tabulate(const Problem &problem, const std::vector<SurfaceResults> &surface
 {
   for (const SurfaceResults &surface : surfaces)
     tabulate(problem, surface, &surface == &surfaces.front() ? "face" : "wall", profile);
+  if (!problem.scene.has_bottom()) return;
   const double rotation = problem.scene.bottom_plate_rate * problem.state.time;
   const std::vector<SurfacePlace> &master = surfaces.front().master;
   const std::size_t first = profile.size();

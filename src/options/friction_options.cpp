@@ -205,10 +205,10 @@ void read_friction(const OptionReader &reader, SceneInput &input)
   const auto speeds = read_speed_range(reader);
   for (const KnownLaw &law : known_laws()) {
     const bool is_chosen = law.declaration->name == chosen;
-    const LawValues values = read_values(reader, *law.declaration, is_chosen && input.scene.has_top);
+    const LawValues values = read_values(reader, *law.declaration, is_chosen && input.scene.has_contact());
     const bool complete = std::none_of(values.begin(), values.end(), [](const auto &v) { return v.empty(); });
     if (complete) expect_possible(reader, *law.declaration, values);
-    if (!is_chosen || !input.scene.has_top) continue;
+    if (!is_chosen || !input.scene.has_contact()) continue;
     input.scene.friction = law.make(values);
     input.scene.friction_speeds = speeds;
     note_idle_floor(reader, *law.declaration, input);
@@ -218,7 +218,7 @@ void read_friction(const OptionReader &reader, SceneInput &input)
           ": friction that weakens with speed has unstable sliding states; see whether mu(v) of "
           "these numbers becomes negative at high speed");
   }
-  if (input.scene.has_top) note_idle(reader, chosen, input);
+  if (input.scene.has_contact()) note_idle(reader, chosen, input);
 }
 
 } // namespace tribogel

@@ -30,7 +30,14 @@ OptionGroup scene_group()
             .fallback = "both",
             .meaning = "both: two gels in contact; bottom: one gel bonded to both plates, no contact",
             .source = "paper",
-            .choices = {"both", "bottom"}}}};
+            .choices = {"both", "bottom"}},
+           {.name = "-counterface",
+            .kind = OptionKind::choice,
+            .fallback = "gel",
+            .meaning = "what the top gel is pressed on: gel: the bottom gel; rigid: a plane at z = 0 in its "
+                       "place, which does not yield, as glass or metal",
+            .source = "paper",
+            .choices = {"gel", "rigid"}}}};
 }
 
 OptionGroup geometry_group()
@@ -75,7 +82,8 @@ OptionGroup geometry_group()
             "Gmsh file of specimens of any shape, instead of the sizes above: hexahedra in the physical "
             "volumes"
             " top and bottom, their faces in the physical surfaces top_plate, bottom_plate, top_contact and"
-            " bottom_contact (with -specimens bottom: bottom, top_plate and bottom_plate); mm, z = 0 is the"
+            " bottom_contact (with -specimens bottom: bottom, top_plate and bottom_plate; with -counterface"
+            " rigid: top, top_plate and top_contact); mm, z = 0 is the"
             " bottom specimen's contact face, x = y = 0 the axis",
         .source = "own",
         .rule =

@@ -88,12 +88,12 @@ std::string describe_mesh(const Scene &scene, const std::string &mesh_file)
     text += "mesh of " + mesh_file;
   } else {
     text += std::to_string(scene.mesh.elements_radial << scene.mesh.refinements) + " along the radius";
-    if (scene.has_top && scene.mesh.bottom_elements_radial > 0)
+    if (scene.has_top() && scene.has_bottom() && scene.mesh.bottom_elements_radial > 0)
       text += " (bottom gel: " + std::to_string(scene.mesh.bottom_elements_radial << scene.mesh.refinements) +
               ")";
     text += ", grading " + number(scene.mesh.grading);
   }
-  if (scene.has_top && scene.contact_integration == ContactIntegration::elements)
+  if (scene.has_contact() && scene.contact_integration == ContactIntegration::elements)
     text += ", contact at Gauss points of each slave facet";
   return text + "\n  side walls " +
          (scene.plate_contact ? "may touch the plates" : "do not feel the plates") + "\n";
@@ -127,12 +127,22 @@ std::string scene_report(const SceneInput &input)
   const Scene &scene = input.scene;
   const bool from_file = !input.mesh_file.empty();
   const std::string shape = from_file ? "gel" : "gel cylinder";
-  std::string text = scene.has_top ? "Two " + shape + "s, bonded to the plates, pressed together and turned\n"
-                                   : "One " + shape + ", bonded to both plates\n";
-  if (scene.has_top) text += describe(scene.top, "top   ", from_file);
-  text += describe(scene.bottom, "bottom", from_file);
-  if (scene.has_top) text += describe_friction(scene);
-  text += describe(scene.schedule, scene.has_top ? scene.top.radius : scene.bottom.radius);
+  std::string text;
+  switch (scene.arrangement) {
+  case Arrangement::gel_on_gel:
+    text = "Two " + shape + "s, bonded to the plates, pressed together and turned\n";
+    break;
+  case Arrangement::gel_on_rigid:
+    text = "One " + shape + ", bonded to the top plate, pressed on a rigid plane and turned\n";
+    break;
+  case Arrangement::single_gel:
+    text = "One " + shape + ", bonded to both plates\n";
+    break;
+  }
+  if (scene.has_top()) text += describe(scene.top, "top   ", from_file);
+  if (scene.has_bottom()) text += describe(scene.bottom, "bottom", from_file);
+  if (scene.has_contact()) text += describe_friction(scene);
+  text += describe(scene.schedule, scene.upper_gel().radius);
   text += describe_mesh(scene, input.mesh_file) + describe_time(scene) + describe(scene.output);
   for (const std::string &warning : input.warnings) text += "warning: " + warning + "\n";
   for (const std::string &note : input.notes) text += "note: " + note + "\n";

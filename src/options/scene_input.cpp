@@ -27,7 +27,8 @@ void read_geometry(const OptionReader &reader, Scene &scene)
   scene.bottom.height = reader.real("-bottom_height");
   scene.initial_gap = reader.real("-initial_gap");
   scene.plate_contact = reader.flag("-plate_contact");
-  if (!reader.is_given("-mesh_file") && scene.has_top && scene.top.radius > scene.bottom.radius) {
+  if (!reader.is_given("-mesh_file") && scene.has_top() && scene.has_bottom() &&
+      scene.top.radius > scene.bottom.radius) {
     const Option &option = OptionReader::declared("-top_radius");
     refuse("-top_radius", reader.text(option),
            "allowed: " + option.allowed() + ", here -bottom_radius = " + to_text(scene.bottom.radius) +
@@ -50,7 +51,7 @@ void read_misalignment(const OptionReader &reader, Scene &scene)
   const Option &offset = OptionReader::declared("-top_offset"), &tilt = OptionReader::declared("-top_tilt");
   const std::vector<double> c = reader.reals(offset);
   const double angle = reader.real("-top_tilt");
-  if (!scene.has_top) return;
+  if (!scene.has_top()) return;
   scene.misalignment = {{c[0], c[1]}, angle};
   if (reader.is_given("-mesh_file")) {
     if (angle != 0)
@@ -61,6 +62,12 @@ void read_misalignment(const OptionReader &reader, Scene &scene)
     if (scene.model == Model::axisymmetric && scene.misalignment.any() && reader.is_given(option->name))
       refuse(option->name, reader.text(*option),
              "allowed: " + option->fallback + " with -model axisymmetric");
+  if (!scene.has_bottom()) {
+    if (std::hypot(c[0], c[1]) > 0)
+      refuse(offset.name, reader.text(offset),
+             "allowed: 0,0 with -counterface rigid, a plane that is the same everywhere");
+    return;
+  }
   const double beyond = disc_overhang(scene.top.radius, scene.bottom.radius, std::hypot(c[0], c[1]));
   if (beyond > largest_overhang)
     refuse(offset.name, reader.text(offset),
@@ -109,15 +116,16 @@ void check_approach(SceneInput &input)
   const auto resolved = std::find_if(input.options.begin(), input.options.end(),
                                      [](const auto &option) { return option.first == "schedule_approach"; });
   const std::string &text = resolved->second;
-  const double height = scene.bottom.height + (scene.has_top ? scene.top.height + scene.initial_gap : 0);
+  const double height = scene.gel_height() + scene.gap();
   double largest = scene.schedule.front().end_approach;
   for (const Phase &phase : scene.schedule) largest = std::max(largest, phase.end_approach);
   if (!(largest < height))
-    refuse(
-        "-schedule_approach", text,
-        "allowed: each less than " + to_text(height) + " mm, " +
-            (scene.has_top ? "both heights and -initial_gap together" : "the height of the bottom specimen"));
-  if (scene.has_top && largest <= scene.initial_gap)
+    refuse("-schedule_approach", text,
+           "allowed: each less than " + to_text(height) + " mm, " +
+               (!scene.has_top()     ? "the height of the bottom specimen"
+                : scene.has_bottom() ? "both heights and -initial_gap together"
+                                     : "the height of the top specimen and -initial_gap together"));
+  if (scene.has_contact() && largest <= scene.initial_gap)
     input.notes.push_back("-schedule_approach = " + text +
                           ": the specimens are never pressed together (-initial_gap " +
                           to_text(scene.initial_gap) + " mm)");
@@ -161,7 +169,7 @@ void read_schedule_kind(const OptionReader &reader, SceneInput &input)
            "round: each "
            "turn loads the gels anew");
   scene.schedule_kind = ScheduleKind::steady;
-  if (!scene.has_top) return;
+  if (!scene.has_contact()) return;
   const bool holds = scene.friction.law() && scene.friction.law()->holds_at_rest();
   if (holds && scene.friction.has_memory() && scene.model == Model::solid)
     refuse("-schedule_kind", "steady",
@@ -208,7 +216,7 @@ void read_discretisation(const OptionReader &reader, SceneInput &input)
   scene.mesh.refinements = reader.integer("-mesh_refinements");
   for (const char *name :
        {"-elements_radial", "-bottom_elements_radial"}) // one cell would fill the whole circle
-    if (scene.model == Model::solid && scene.has_top && reader.integer(name) == 1 &&
+    if (scene.model == Model::solid && scene.has_top() && reader.integer(name) == 1 &&
         scene.mesh.refinements == 0)
       refuse(name, "1", "allowed: at least 2 with -model solid, whose circles need a ring of cells");
   scene.phase_end_tolerance = reader.real("-phase_end_tolerance");
@@ -216,7 +224,7 @@ void read_discretisation(const OptionReader &reader, SceneInput &input)
     refuse("-phase_end_tolerance", to_text(scene.phase_end_tolerance),
            "allowed: 0 with -top_offset, -top_tilt or -mesh_file, where a phase cannot end in one long step");
   const bool at_elements = reader.choice("-contact_integration") == "elements";
-  if (at_elements && scene.model == Model::axisymmetric && scene.has_top)
+  if (at_elements && scene.model == Model::axisymmetric && scene.has_contact())
     refuse("-contact_integration", "elements", "allowed: segments with -model axisymmetric");
   scene.contact_integration = at_elements ? ContactIntegration::elements : ContactIntegration::segments;
   const bool second_order = reader.choice("-maxwell_integrator") == "sdirk2";
@@ -255,8 +263,8 @@ void warn_about_relaxation(const Scene &scene, SceneInput &input)
                                  " s; the branch will not relax. Is it in MPa s?");
     }
   };
-  if (scene.has_top) check(scene.top, "top");
-  check(scene.bottom, "bottom");
+  if (scene.has_top()) check(scene.top, "top");
+  if (scene.has_bottom()) check(scene.bottom, "bottom");
 }
 
 /// A run that goes on does so where it is.
@@ -284,14 +292,32 @@ void read_output(const OptionReader &reader, SceneInput &input)
 }
 
 /// One gel alone: whatever concerns the other one and the contact does nothing.
-void note_idle_without_top(const GivenOptions &given, SceneInput &input)
+void note_idle(const GivenOptions &given, SceneInput &input)
 {
+  const Scene &scene = input.scene;
+  if (scene.arrangement == Arrangement::gel_on_gel) return;
   std::string idle;
-  for (const auto &[name, text] : given)
-    if (name.starts_with("-top_") || name.starts_with("-friction_") || name == "-initial_gap" ||
-        name == "-contact_integration")
-      idle += (idle.empty() ? "" : ", ") + name;
-  if (!idle.empty()) input.notes.push_back("without effect with -specimens bottom: " + idle);
+  for (const auto &[name, text] : given) {
+    const bool of_top = name.starts_with("-top_") || name.starts_with("-friction_") ||
+                        name == "-initial_gap" || name == "-contact_integration";
+    if (scene.has_top() ? name.starts_with("-bottom_") : of_top) idle += (idle.empty() ? "" : ", ") + name;
+  }
+  if (!idle.empty())
+    input.notes.push_back(std::string("without effect with ") +
+                          (scene.has_top() ? "-counterface rigid" : "-specimens bottom") + ": " + idle);
+}
+
+void read_arrangement(const OptionReader &reader, Scene &scene)
+{
+  const Option &counterface = OptionReader::declared("-counterface");
+  const bool rigid = reader.choice(counterface.name) == "rigid";
+  if (reader.choice("-specimens") == "bottom") {
+    scene.arrangement = Arrangement::single_gel;
+    if (rigid)
+      refuse(counterface.name, "rigid",
+             "allowed: gel with -specimens bottom, one gel that is bonded to both plates");
+  } else
+    scene.arrangement = rigid ? Arrangement::gel_on_rigid : Arrangement::gel_on_gel;
 }
 
 /// Whatever a reader above has not already written down as resolved.
@@ -319,14 +345,15 @@ void resolve_the_rest(const OptionReader &reader, SceneInput &input)
 
 double estimated_elements(const Scene &scene)
 {
-  const double radius = scene.has_top ? scene.top.radius : scene.bottom.radius;
+  const double radius = scene.upper_gel().radius;
   const auto count = [&](const Specimen &s, int elements) {
     const double edge = radius / (elements << scene.mesh.refinements);
     const double along = std::ceil(s.radius / edge), layers = std::ceil(s.height / edge);
     return scene.model == Model::solid ? 3 * along * along * layers : along * layers; // 3: revolved_mesh
   };
   const int top = scene.mesh.elements_radial, bottom = scene.mesh.bottom_elements_radial;
-  return count(scene.bottom, bottom > 0 ? bottom : top) + (scene.has_top ? count(scene.top, top) : 0);
+  return (scene.has_bottom() ? count(scene.bottom, bottom > 0 ? bottom : top) : 0) +
+         (scene.has_top() ? count(scene.top, top) : 0);
 }
 
 void take_sizes(SceneInput &input, const SpecimenSizes &sizes)
@@ -337,9 +364,11 @@ void take_sizes(SceneInput &input, const SpecimenSizes &sizes)
     for (auto &[option, text] : input.options)
       if (option == name) text = to_text(value);
   };
-  take("bottom_radius", sizes.radius[0], scene.bottom.radius);
-  take("bottom_height", sizes.height[0], scene.bottom.height);
-  if (scene.has_top) {
+  if (scene.has_bottom()) {
+    take("bottom_radius", sizes.radius[0], scene.bottom.radius);
+    take("bottom_height", sizes.height[0], scene.bottom.height);
+  }
+  if (scene.has_top()) {
     take("top_radius", sizes.radius[1], scene.top.radius);
     take("top_height", sizes.height[1], scene.top.height);
     take("initial_gap", sizes.gap, scene.initial_gap);
@@ -357,15 +386,15 @@ SceneInput scene_from_options(const GivenOptions &given)
   input.given = with_table;
   Scene &scene = input.scene;
   reader.choice("-task");
-  scene.has_top = reader.choice("-specimens") == "both";
+  read_arrangement(reader, scene);
   if (reader.choice("-model") == "solid") scene.model = Model::solid;
   read_mesh_file(reader, input);
   read_geometry(reader, scene);
   read_misalignment(reader, scene);
-  SceneInput unused; // a top specimen that is not there raises no warnings
-  scene.top.material = read_material(reader, "top", scene.has_top ? input : unused);
+  SceneInput unused; // a specimen that is not there raises no warnings
+  scene.top.material = read_material(reader, "top", scene.has_top() ? input : unused);
+  scene.bottom.material = read_material(reader, "bottom", scene.has_bottom() ? input : unused);
   input.options.insert(input.options.end(), unused.options.begin(), unused.options.end());
-  scene.bottom.material = read_material(reader, "bottom", input);
   read_friction(reader, input);
   read_schedule(reader, input);
   read_schedule_kind(reader, input);
@@ -373,7 +402,7 @@ SceneInput scene_from_options(const GivenOptions &given)
   read_output(reader, input);
   warn_about_relaxation(scene, input);
   if (input.mesh_file.empty()) judge_sizes(input);
-  if (!scene.has_top) note_idle_without_top(given, input);
+  note_idle(given, input);
   resolve_the_rest(reader, input);
   return input;
 }

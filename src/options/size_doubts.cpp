@@ -49,8 +49,8 @@ void judge_sizes(SceneInput &input)
     judge("-" + body + "_radius", specimen.radius, smallest_radius);
     judge("-" + body + "_height", specimen.height, smallest_height);
   };
-  if (scene.has_top) judge_both("top", scene.top);
-  judge_both("bottom", scene.bottom);
+  if (scene.has_top()) judge_both("top", scene.top);
+  if (scene.has_bottom()) judge_both("bottom", scene.bottom);
   if (odd.empty()) return;
   input.warnings.push_back(
       (input.mesh_file.empty() ? odd : "-mesh_file = " + input.mesh_file + " stands for " + odd) +
@@ -63,8 +63,8 @@ void judge_faces(SceneInput &input, const SpecimenSizes &sizes)
   Scene &scene = input.scene;
   const std::string file = "-mesh_file = " + input.mesh_file + ": ";
   constexpr double beside = 0.01; // of the radius
-  for (int body = 0; body < (scene.has_top ? 2 : 1); ++body) {
-    const std::string name = body == 1 ? "top_contact" : scene.has_top ? "bottom_contact" : "top_plate";
+  for (int body = scene.has_bottom() ? 0 : 1; body < (scene.has_top() ? 2 : 1); ++body) {
+    const std::string name = body == 1 ? "top_contact" : scene.has_top() ? "bottom_contact" : "top_plate";
     const auto &centroid = sizes.centroid[body];
     if (!sizes.around_axis[body])
       input.warnings.push_back(
@@ -78,7 +78,7 @@ void judge_faces(SceneInput &input, const SpecimenSizes &sizes)
   }
   double pressed = 0;
   for (const Phase &phase : scene.schedule) pressed = std::max(pressed, phase.end_approach - sizes.gap);
-  if (!scene.has_top || pressed == 0 || sizes.unevenness <= pressed) return;
+  if (!scene.has_contact() || pressed == 0 || sizes.unevenness <= pressed) return;
   scene.even_faces = false;
   input.notes.push_back(
       file + "the contact faces are uneven by " + four_digits(sizes.unevenness) +

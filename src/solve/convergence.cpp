@@ -34,7 +34,7 @@ PetscErrorCode Problem::MeasureRoundOff()
   least_loads = {round_off_allowance * std::sqrt(sums[2]),
                  round_off_allowance * std::sqrt(sums[0] + sums[1]) * scene.twist_length()};
   double bulk_over_shear = 0;
-  for (const Specimen *gel : {&scene.bottom, scene.has_top ? &scene.top : &scene.bottom}) {
+  for (const Specimen *gel : scene.gels()) {
     const auto &spring = gel->material.equilibrium;
     bulk_over_shear = std::max(bulk_over_shear, spring.bulk_modulus / spring.shear_modulus());
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace tribogel
@@ -49,11 +50,11 @@ Region region_of(const Scene &scene, const FailurePlace &place)
   const double z = place.X[solid ? 2 : 1], contact = top ? scene.initial_gap : 0;
   const double from_wall = gel.radius - (solid ? std::hypot(place.X[0], place.X[1]) : place.X[0]);
   const double from_face = std::abs(z - contact), from_plate = std::abs(gel.height - from_face);
-  const double element = (scene.has_top ? scene.top : scene.bottom).radius / scene.mesh.elements_radial;
+  const double element = scene.upper_gel().radius / scene.mesh.elements_radial;
   const double across = std::max(0.25 * gel.height, 0.5 * element);
   const double upwards = std::clamp(0.5 * element, 0.25 * gel.height, 0.5 * gel.height);
-  const bool bonded = std::min(from_plate, scene.has_top ? from_plate : from_face) <= upwards;
-  const bool at_contact = scene.has_top && from_face <= upwards;
+  const bool bonded = std::min(from_plate, scene.has_contact() ? from_plate : from_face) <= upwards;
+  const bool at_contact = scene.has_contact() && from_face <= upwards;
   if (from_wall <= across)
     return bonded ? Region::bonded_rim : at_contact ? Region::contact_edge : Region::wall;
   return at_contact ? Region::contact_face : Region::inside;
@@ -98,8 +99,9 @@ std::string describe_end(const Scene &scene, const FailurePlace &place, double c
   }
   text << ". What may help: less compression or thicker gels, less friction, longer edges at the rims "
           "(-mesh_grading 4)";
-  const double height = scene.has_top ? std::min(scene.top.height, scene.bottom.height) : scene.bottom.height;
-  const double radius = (scene.has_top ? scene.top : scene.bottom).radius;
+  double height = std::numeric_limits<double>::infinity();
+  for (const Specimen *each : scene.gels()) height = std::min(height, each->height);
+  const double radius = scene.upper_gel().radius;
   if (const double enough = std::ceil(2 * radius / height); scene.mesh.elements_radial < enough)
     text << ", and elements of at most half of the thinner gel's height (-elements_radial " << enough << ")";
   return text.str();

@@ -21,14 +21,14 @@ struct FrictionCheck {
   double critical = 0; ///< with memory: stiffness below which steady sliding is unstable [MPa/mm]
 };
 
-/// Tangential stiffness of the two gels in series, sheared as a whole: the softest way in which all nodes can
+/// Tangential stiffness of the gels in series, sheared as a whole: the softest way in which all nodes can
 /// slide [MPa/mm].
 double shear_stiffness(const Scene &scene)
 {
-  const auto compliance = [](const Specimen &gel) {
-    return gel.height / gel.material.equilibrium.shear_modulus();
-  };
-  return 1 / (compliance(scene.top) + compliance(scene.bottom));
+  double compliance = 0;
+  for (const Specimen *gel : scene.gels())
+    compliance += gel->height / gel->material.equilibrium.shear_modulus();
+  return 1 / compliance;
 }
 
 /// Without inertia k dx = -tau'(v) dv at a node that slides: where tau falls, dx grows with the time -tau'/k.

@@ -45,7 +45,7 @@ PetscErrorCode Problem::SetUpLinearSolver(SNES snes)
   PetscCall(RegisterContactPc());
   PetscCall(SNESGetKSP(snes, &ksp));
   PetscCall(KSPGetPC(ksp, &pc));
-  const bool whole_nodes = scene.has_top && scene.plate_bond == PlateBond::glued;
+  const bool whole_nodes = scene.has_contact() && scene.plate_bond == PlateBond::glued;
   const bool multigrid =
       mesh.dim == 3 && whole_nodes && mesh.unknowns > direct_up_to(scene.mesh.element_order);
   PetscCall(KSPSetType(ksp, multigrid ? KSPGMRES : mesh.dim == 3 ? KSPFGMRES : KSPPREONLY));

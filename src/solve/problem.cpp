@@ -29,7 +29,7 @@ PetscErrorCode Problem::SetUp(MPI_Comm comm, const Scene &given, SerialMesh seri
   PetscCall(PetscLogEventEnd(events.mesh, 0, 0, 0, 0));
   if (scene.even_faces) face = scene.round ? ContactFace(scene.top.radius) : contact_face(mesh, mesh.slave);
   PetscCall(Bulk::Create(mesh, scene, bulk));
-  if (scene.has_top || scene.plate_contact) {
+  if (scene.has_contact() || scene.plate_contact) {
     contact = std::make_unique<Contact>();
     PetscCall(contact->SetUp(comm, mesh, scene));
   }
@@ -208,7 +208,7 @@ void Problem::SetBoundary(double time, double *U, double *Udot) const
   const double L = scene.twist_length();
   for (const Node &node : mesh.nodes) {
     if (!node.prescribed) continue;
-    const bool driven = node.on(Side::top_plate) && !scene.has_top;
+    const bool driven = node.on(Side::top_plate) && !scene.has_top();
     std::array<double, 3> u{}, rate{};
     if (driven) u = driven_displacement(phase(), time, mesh.dim, L, node.X);
     if (driven && Udot) rate = driven_rate(phase(), time, mesh.dim, L, node.X);
@@ -237,7 +237,7 @@ Wrench Problem::plate_wrench(const double *U, const double *F) const
 
 double Problem::plate_height() const
 {
-  return scene.has_top ? plate_at_rest : plate_at_rest - phase().approach(state.time);
+  return scene.has_top() ? plate_at_rest : plate_at_rest - phase().approach(state.time);
 }
 
 PetscErrorCode Problem::LocalState(Vec U, Vec Udot) const

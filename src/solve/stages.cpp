@@ -85,7 +85,7 @@ PetscErrorCode Problem::Rings(bool &rings) const
   const double first = stage.loads[torque] - state.loads[torque];
   const double second = loads[torque] - state.loads[torque] - sdirk2::reach * first;
   const double tolerated = fraction * load_scales(largest)[torque] + least_loads[torque];
-  rings = scene.has_top && (fixed || step <= unresolved) && !steady() && first * second < 0 &&
+  rings = scene.has_contact() && (fixed || step <= unresolved) && !steady() && first * second < 0 &&
           std::abs(second) > worth_a_solve * tolerated;
   PetscFunctionReturn(0);
 }

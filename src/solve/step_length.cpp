@@ -30,7 +30,7 @@ PetscErrorCode Problem::FirstStep(PetscReal &step, PetscReal &unresolved) const
   if (steady()) PetscFunctionReturn(0); // one step, unless it fails
   PetscCall(TSGetTolerances(ts, &fraction, nullptr, nullptr, nullptr));
   double tau = shortest_of_interest * phase().duration();
-  for (const Specimen *gel : {&scene.bottom, scene.has_top ? &scene.top : &scene.bottom})
+  for (const Specimen *gel : scene.gels())
     for (const auto &branch : gel->material.branches) tau = std::min(tau, shape_relaxation_time(branch));
   const double constant = scene.time.rule == TimeRule::sdirk2 ? sdirk2::error_constant : 0.5;
   unresolved = step =
@@ -57,10 +57,10 @@ PetscReal Problem::TimeUntilTouch() const
 {
   const Phase &now = phase();
   const bool alone_and_moves =
-      !scene.has_top && (now.end_approach != 0 || now.rate != scene.bottom_plate_rate);
+      !scene.has_contact() && (now.end_approach != 0 || now.rate != scene.bottom_plate_rate);
   if (alone_and_moves || state.largest[0] > least_loads[0] || state.largest[1] > least_loads[1]) return 0;
   double touch = now.end_time;
-  if (scene.has_top && now.end_approach > scene.initial_gap)
+  if (scene.has_contact() && now.end_approach > scene.initial_gap)
     touch =
         now.start_time + (scene.initial_gap - now.start_approach) / now.approach_rate() - 2 * ShortestStep();
   const double left = touch - std::max(state.time, now.start_time);

@@ -64,9 +64,9 @@ double rounded(double estimate)
 
 double Problem::expected_compression() const
 {
-  double height = scene.bottom.height + (scene.has_top ? scene.top.height : 0), approach = 0;
+  double approach = 0;
   for (const Phase &each : scene.schedule) approach = std::max(approach, std::abs(each.end_approach));
-  return std::max(0.0, approach - (scene.has_top ? scene.initial_gap : 0)) / height;
+  return std::max(0.0, approach - scene.gap()) / scene.gel_height();
 }
 
 /// Never less than what a free bar of the softer gel would bear at the schedule's largest compression: less
@@ -75,10 +75,8 @@ double Problem::expected_compression() const
 PlateLoads Problem::load_scales(const PlateLoads &largest) const
 {
   constexpr double negligible = 1e-8;
-  double modulus = scene.bottom.material.equilibrium.shear_modulus();
-  if (scene.has_top) modulus = std::min(modulus, scene.top.material.equilibrium.shear_modulus());
-  const double radius = scene.has_top ? scene.top.radius : scene.bottom.radius, L = scene.twist_length();
-  const double bar = 3 * modulus * std::numbers::pi * radius * radius * expected_compression();
+  const double radius = scene.upper_gel().radius, L = scene.twist_length();
+  const double bar = 3 * scene.softer_modulus() * std::numbers::pi * radius * radius * expected_compression();
   return {std::max({largest[0], bar, negligible * largest[1] / L}),
           std::max(largest[1], negligible * largest[0] * L)};
 }
@@ -332,9 +330,8 @@ std::string Problem::Explain(TSConvergedReason reason) const
   if (!last_failure.words.empty()) text << ": " << last_failure.words;
   text << " (" << TSConvergedReasons[reason] << ")";
   if (last_failure.place) {
-    const double height = scene.bottom.height + (scene.has_top ? scene.top.height : 0);
-    const double approach = -frames(state.time, 1).top_travel - scene.initial_gap;
-    if (const std::string end = describe_end(scene, *last_failure.place, approach / height); !end.empty())
+    const double compression = (phase().approach(state.time) - scene.initial_gap) / scene.gel_height();
+    if (const std::string end = describe_end(scene, *last_failure.place, compression); !end.empty())
       text << ". " << end;
   }
   return text.str();

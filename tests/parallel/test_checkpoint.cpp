@@ -22,7 +22,7 @@ constexpr double stop_time = 3.4; // in the midst of the second phase [s]
 Scene scene_of(int order, bool both)
 {
   Scene scene = paper_scene(5, order);
-  scene.has_top = both;
+  if (!both) scene.arrangement = Arrangement::single_gel;
   scene.friction = PolynomialFriction<double>{{0.05, 8e-3}, {0, 1}};
   if (both) scene.bottom.material = hyperelastic_gel(); // cells with and without history
   scene.schedule = schedule_from_rates({2, 5, 9}, {0.3, 0.47, 0.53}, {0, 0.013, 0.27});

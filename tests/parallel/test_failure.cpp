@@ -11,7 +11,7 @@ namespace tribogel::test
 TEST(failure, OfOneRankCutsTheStepOfAll)
 {
   Scene scene = paper_scene(6);
-  scene.has_top = false;
+  scene.arrangement = Arrangement::single_gel;
   scene.bottom.material = hyperelastic_gel();
   scene.schedule = schedule_from_twists({1}, {1.3}, {0.4});
   const OptionList whole_travel_at_once{{"-ts_dt", "1"}}; // too much for the cells at the plate

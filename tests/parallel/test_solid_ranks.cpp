@@ -75,6 +75,19 @@ TEST(solid_ranks, GiveTheNumbersOfOneInContact)
   compare(scene, shared, single);
 }
 
+TEST(solid_ranks, GiveTheNumbersOfOneOnARigidPlane)
+{
+  const SolverOptions options(newton_tolerance(1e-12));
+  Scene scene = paper_scene(3, 1);
+  scene.arrangement = Arrangement::gel_on_rigid;
+  scene.model = Model::solid;
+  scene.friction = PolynomialFriction<double>{{0.02, 8e-3}, {0, 1}};
+  scene.schedule = schedule_from_rates({3, 5}, {0.3, 0.3}, {0.1, 0.3});
+  scene.schedule_kind = ScheduleKind::steady;
+  Problem shared, single;
+  compare(scene, shared, single);
+}
+
 /// Curved cells of a file that the first rank alone has read, against the same on one rank.
 TEST(solid_ranks, ShareAMeshFile)
 {
@@ -82,8 +95,8 @@ TEST(solid_ranks, ShareAMeshFile)
   Scene scene = solid_cylinder(4.5, 3, hyperelastic_gel(), 2, 3);
   scene.schedule = schedule_from_twists({1}, {0.3}, {0.5});
   const SerialMesh serial = revolved_mesh(meridian_blocks(scene));
-  std::istringstream file(GmshWriter(serial, false, 27).format_4());
-  const SerialMesh whole = mesh_of_gmsh(file, false, 2);
+  std::istringstream file(GmshWriter(serial, Arrangement::single_gel, 27).format_4());
+  const SerialMesh whole = mesh_of_gmsh(file, Arrangement::single_gel, 2);
   SerialMesh nothing;
   nothing.dim = 3;
   int rank;

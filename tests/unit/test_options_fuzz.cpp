@@ -90,7 +90,7 @@ private:
 void expect_sense(const Scene &scene)
 {
   for (const Specimen *gel : {&scene.top, &scene.bottom}) {
-    if (gel == &scene.top && !scene.has_top) continue;
+    if (gel == &scene.top && !scene.has_top()) continue;
     EXPECT_TRUE(gel->radius > 0 && std::isfinite(gel->radius) && gel->height > 0 &&
                 std::isfinite(gel->height));
     EXPECT_GT(gel->material.equilibrium.bulk_modulus, 0);

@@ -60,7 +60,7 @@ TEST(OptionsScene, defaults_are_the_paper_scene)
 {
   const SceneInput input = scene_from_options({});
   const Scene &scene = input.scene;
-  EXPECT_TRUE(scene.has_top);
+  EXPECT_TRUE(scene.has_top());
   EXPECT_EQ(scene.top.radius, 10);
   EXPECT_EQ(scene.top.height, 4.4);
   EXPECT_EQ(scene.bottom.radius, 12.5);
@@ -374,7 +374,7 @@ TEST(OptionsScene, refuses_absurd_meshes_with_their_number_of_elements)
   scene.bottom.height = 6;
   scene.mesh.elements_radial = 5;
   EXPECT_EQ(estimated_elements(scene), 5 * 2 + 6 * 3);
-  scene.has_top = false;
+  scene.arrangement = Arrangement::single_gel;
   EXPECT_EQ(estimated_elements(scene), 5 * 3); // edge 12 / 5
   scene.mesh.refinements = 3;
   EXPECT_EQ(estimated_elements(scene), 40 * 20);

@@ -21,7 +21,7 @@ inline Scene cylinder(double radius, double height, const Viscoelastic<double> &
                       int elements)
 {
   Scene scene;
-  scene.has_top = false;
+  scene.arrangement = Arrangement::single_gel;
   scene.plate_contact = false; // of the bulk alone
   scene.bottom = {radius, height, material};
   scene.mesh.element_order = order;

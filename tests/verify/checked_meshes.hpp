@@ -80,15 +80,16 @@ struct Verdict {
   std::vector<std::string> warnings;
 };
 
-inline Verdict judged(const std::string &text, int order = 1, double travel = 0.5, bool has_top = true)
+inline Verdict judged(const std::string &text, int order = 1, double travel = 0.5,
+                      Arrangement arrangement = Arrangement::gel_on_gel)
 {
   std::istringstream stream(text);
   try {
-    GmshBodies bodies = bodies_of_gmsh(stream, has_top, order);
+    GmshBodies bodies = bodies_of_gmsh(stream, arrangement, order);
     const std::vector<Touch> touches = touches_of(bodies);
     expect_joined(bodies, touches);
-    expect_held(bodies, has_top);
-    expect_whole_groups(bodies, has_top, travel);
+    expect_held(bodies, arrangement);
+    expect_whole_groups(bodies, arrangement, travel);
     expect_apart(bodies, touches);
     return {"", bodies.warnings};
   } catch (const UserError &error) {
@@ -98,7 +99,7 @@ inline Verdict judged(const std::string &text, int order = 1, double travel = 0.
 
 inline Verdict judged(const SerialMesh &mesh, int order = 1, double travel = 0.5)
 {
-  return judged(GmshWriter(mesh, true, 8).format_2(), order, travel);
+  return judged(GmshWriter(mesh, Arrangement::gel_on_gel, 8).format_2(), order, travel);
 }
 
 inline void expect_refused(const Verdict &verdict, const std::vector<std::string> &parts)

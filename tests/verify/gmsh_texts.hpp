@@ -9,17 +9,18 @@
 namespace tribogel::test
 {
 
-inline SerialMesh read(const std::string &text, int order, bool has_top = true)
+inline SerialMesh read(const std::string &text, int order, Arrangement arrangement = Arrangement::gel_on_gel)
 {
   std::istringstream stream(text);
-  return mesh_of_gmsh(stream, has_top, order);
+  return mesh_of_gmsh(stream, arrangement, order);
 }
 
 /// What reading the text is refused with.
-inline std::string refusal(const std::string &text, int order = 1, bool has_top = true)
+inline std::string refusal(const std::string &text, int order = 1,
+                           Arrangement arrangement = Arrangement::gel_on_gel)
 {
   try {
-    read(text, order, has_top);
+    read(text, order, arrangement);
   } catch (const UserError &error) {
     return error.text;
   }

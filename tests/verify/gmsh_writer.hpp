@@ -17,14 +17,14 @@ class GmshWriter
 {
 public:
   /// With hexahedra of 8, 20 or 27 nodes, on the bodies' shapes.
-  GmshWriter(const SerialMesh &serial, bool has_top, int nodes) : mesh(serial), size(nodes)
+  GmshWriter(const SerialMesh &serial, Arrangement arrangement, int nodes) : mesh(serial), size(nodes)
   {
     X.resize(mesh.vertex.size());
     for (const SerialMesh::Cell &cell : mesh.cell)
       for (const int v : cell.vertex) X[v] = placed(cell.body, {v});
     for (const SerialMesh::Cell &cell : mesh.cell)
       add(3, cell.body + 1, cell.body, in_gmsh_order(cell.vertex));
-    const auto groups = surface_groups(has_top);
+    const auto groups = surface_groups(arrangement);
     for (const SerialMesh::Facet &facet : mesh.boundary)
       for (std::size_t g = 0; g < groups.size(); ++g)
         if (facet.side == groups[g].side)

@@ -21,11 +21,12 @@ struct HertzScene {
   double width = 20;                     ///< of the block over a
   double slope = 1e-4;                   ///< a over the sphere's radius
   double a = 1.3;                        ///< about the contact radius at the full load [mm]
+  double bulk_over_shear = 5;            ///< of the gels
 
   double sphere() const { return a / slope; }
   /// Approach that would make the contact radius `part` of a between half-spaces [mm].
   double approach(double part = 1) const { return part * part * a * slope; }
-  Viscoelastic<double> gel() const { return neo_hookean(0.4, 5); }
+  Viscoelastic<double> gel() const { return neo_hookean(0.4, bulk_over_shear); }
   Elastic elastic() const { return Elastic(gel().equilibrium); }
 
   Scene scene(const Schedule &schedule) const

@@ -57,7 +57,7 @@ TEST(failure_words, FollowTheScene)
   scene.round = false; // its walls are elsewhere
   EXPECT_EQ(words(scene, top_body, {0, -9.9, 0.5}), "");
   scene = paper_scene(12);
-  scene.has_top = false;
+  scene.arrangement = Arrangement::single_gel;
   expect_part(words(scene, bottom_body, {12.4, -0.1, 0}), "rim where the bottom gel is bonded to its plate");
 }
 

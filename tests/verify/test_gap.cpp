@@ -81,7 +81,7 @@ TEST(gap, NothingTakesAStepAPhase)
   Scene apart = paper_scene(4), touching = apart, alone = apart;
   apart.initial_gap = 1;
   for (Phase &phase : touching.schedule) phase.start_approach = phase.end_approach = 0;
-  alone.has_top = false;
+  alone.arrangement = Arrangement::single_gel;
   alone.schedule = schedule_from_rates({27, 3600}, {0, 0}, {0, 0});
   for (const Scene &scene : {apart, touching, alone}) {
     Problem problem;
@@ -96,8 +96,8 @@ TEST(gap, NothingTakesAStepAPhase)
       EXPECT_LE(std::abs(row.measurement.normal_force), round_off);
       EXPECT_EQ(row.measurement.torque, 0);
     }
-    ASSERT_EQ(recorder.notices.size(), scene.has_top ? 1u : 0u);
-    if (scene.has_top) {
+    ASSERT_EQ(recorder.notices.size(), scene.has_top() ? 1u : 0u);
+    if (scene.has_top()) {
       EXPECT_NE(recorder.notices[0].find("never been pressed together"), std::string::npos);
     }
   }

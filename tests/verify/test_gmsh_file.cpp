@@ -71,7 +71,7 @@ std::string with_carriage_returns(std::string text)
 TEST(gmsh_file, IsTheSameInAllThatGmshWrites)
 {
   const SerialMesh serial = cylinders();
-  const GmshWriter writer(serial, true, 8);
+  const GmshWriter writer(serial, Arrangement::gel_on_gel, 8);
   const std::string two = writer.format_2(), four = writer.format_4(), parts = writer.partitioned();
   const SerialMesh mesh = read(two, 1);
   for (const std::string &text :
@@ -86,7 +86,7 @@ TEST(gmsh_file, IsTheSameInAllThatGmshWrites)
 TEST(gmsh_file, ListsTheGroupsThatItHas)
 {
   const SerialMesh mesh = cubes();
-  const GmshWriter writer(mesh, true, 8);
+  const GmshWriter writer(mesh, Arrangement::gel_on_gel, 8);
   const std::string two = writer.format_2(), four = writer.format_4();
   const std::string surfaces = "surfaces 'top_plate', 'bottom_plate', 'top_contact', 'bottom_contact'";
   for (const std::string &text : {two, four, exchanged(two, "PhysicalNames", "Elements")}) {
@@ -123,7 +123,7 @@ TEST(gmsh_file, ListsTheGroupsThatItHas)
 TEST(gmsh_file, KnowsOtherFilesByTheirHeads)
 {
   const SerialMesh mesh = cubes();
-  const GmshWriter writer(mesh, true, 8);
+  const GmshWriter writer(mesh, Arrangement::gel_on_gel, 8);
   for (const auto &[head, part] : std::initializer_list<std::pair<const char *, const char *>>{
            {"(1 \"meshio 5.3.4\")\n(2 3)\n",
             "line 1: no section begins here (as in meshes of ANSYS Fluent, which meshio"},

@@ -102,12 +102,14 @@ void check_matrix(Probe &probe, const Values &U, std::mt19937 &random)
   }
 }
 
-void check(const Case &c, double step)
+void check(const Case &c, double step, Arrangement arrangement = Arrangement::gel_on_gel)
 {
   Problem problem;
   Recorder recorder("");
   const SolverOptions equal_steps({{"-ts_adapt_type", "none"}, {"-ts_dt", "0.5"}});
-  run(scene_of(c), problem, recorder);
+  Scene scene = scene_of(c);
+  scene.arrangement = arrangement;
+  run(scene, problem, recorder);
   Probe probe(problem, step);
   std::mt19937 random(20);
   const Values U = perturbed(probe, c.traction, random);
@@ -184,6 +186,12 @@ TEST_P(jacobian, OfWallsThatTouchTheirPlateAndRollOntoTheOtherGel)
         return std::string(row.surface) == "top" && row.reference_z > 0 && row.pressure > 0;
       });
   EXPECT_GE(rolled, 2);
+}
+
+TEST_P(jacobian, OfAGelOnARigidPlane)
+{
+  check({GetParam(), 12.5, 0.2, {0.83, 0.07}, {0, 1}, 1.3, {true, true, true}, 0.4}, 0.37,
+        Arrangement::gel_on_rigid);
 }
 
 INSTANTIATE_TEST_SUITE_P(order, jacobian, ::testing::Values(1, 2));

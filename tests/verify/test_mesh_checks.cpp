@@ -41,10 +41,10 @@ SerialMesh without(SerialMesh mesh, Side side, const std::function<bool(const X 
 /// Puts these faces into the physical surface `name`, number 7.
 std::string with_group(const SerialMesh &all, const SerialMesh &fewer, const std::string &name)
 {
-  std::string text = GmshWriter(all, true, 8).format_2();
+  std::string text = GmshWriter(all, Arrangement::gel_on_gel, 8).format_2();
   const std::string names = "$PhysicalNames\n6\n";
   text.replace(text.find(names), names.size(), "$PhysicalNames\n7\n2 7 \"" + name + "\"\n");
-  std::istringstream lines(text), left(GmshWriter(fewer, true, 8).format_2());
+  std::istringstream lines(text), left(GmshWriter(fewer, Arrangement::gel_on_gel, 8).format_2());
   std::set<std::string> kept;
   const auto nodes = [](const std::string &line) {
     return line.substr(line.find(" 3 2 ") + 5);
@@ -139,17 +139,21 @@ TEST(mesh_checks, WarnOfPartsThatBearNothing)
   const std::pair<int, Box> block{
       bottom_body,
       {{even(2, 3, 1), even(0, 1, 1), even(-2, -1, 1)}, {none, none, none, none, Side::bottom_plate}}};
-  expect_taken(judged(GmshWriter(apart({gel}), false, 8).format_2(), 1, 0.5, false));
+  expect_taken(judged(GmshWriter(apart({gel}), Arrangement::single_gel, 8).format_2(), 1, 0.5,
+                      Arrangement::single_gel));
   const SerialMesh fewer = without(apart({gel}), Side::top_plate, [](const X &x) { return x[0] > 0; });
-  expect_refused(judged(GmshWriter(fewer, false, 8).format_2(), 1, 0.5, false),
-                 {"top_plate lacks faces of bottom: 2 mm^2, 50 %"});
-  expect_warned(judged(GmshWriter(apart({gel, block}), false, 8).format_2(), 1, 0.5, false),
+  expect_refused(
+      judged(GmshWriter(fewer, Arrangement::single_gel, 8).format_2(), 1, 0.5, Arrangement::single_gel),
+      {"top_plate lacks faces of bottom: 2 mm^2, 50 %"});
+  expect_warned(judged(GmshWriter(apart({gel, block}), Arrangement::single_gel, 8).format_2(), 1, 0.5,
+                       Arrangement::single_gel),
                 {"cells are joined to one plate only and bear nothing (element 9 at (2.5, 0.5, -1.5))"});
 }
 
 TEST(mesh_checks, WarnOfHexahedraThatAreLeftOut)
 {
-  std::string text = GmshWriter(apart({lower, slab(5, 6, -2, 0, 1), upper}), true, 8).format_2();
+  std::string text =
+      GmshWriter(apart({lower, slab(5, 6, -2, 0, 1), upper}), Arrangement::gel_on_gel, 8).format_2();
   for (const std::string tag : {"73", "74"}) { // the slab's
     const auto at = text.find("\n" + tag + " 5 2 1 7 ");
     ASSERT_NE(at, std::string::npos);

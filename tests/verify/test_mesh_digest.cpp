@@ -11,7 +11,7 @@ TEST(mesh_digest, IsThatOfTheMeshAndNotOfTheFile)
 {
   const SerialMesh serial = cubes();
   for (const int nodes : {8, 20, 27}) {
-    const GmshWriter writer(serial, true, nodes);
+    const GmshWriter writer(serial, Arrangement::gel_on_gel, nodes);
     const std::string two = writer.format_2(), mesh = digest_of(read(two, 2), true);
     EXPECT_EQ(mesh.size(), 16);
     EXPECT_EQ(digest_of(read(writer.format_4(), 2), true), mesh);
@@ -30,7 +30,7 @@ TEST(mesh_digest, IsFnv)
 
 TEST(mesh_digest, SeesNodesCellsAndSides)
 {
-  const SerialMesh mesh = read(GmshWriter(cubes(), true, 27).format_2(), 2);
+  const SerialMesh mesh = read(GmshWriter(cubes(), Arrangement::gel_on_gel, 27).format_2(), 2);
   std::vector<std::string> seen{digest_of(mesh, false), digest_of(mesh, true)};
   const auto changed = [&](const auto &change, bool places) {
     SerialMesh other = mesh;

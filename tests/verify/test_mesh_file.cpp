@@ -43,7 +43,7 @@ TEST(mesh_file, GivesTheForcesOfTheBuiltInMesh)
   for (const auto &[order, elements] : {std::array{1, 3}, std::array{2, 2}}) {
     const Scene scene = turned_gels(order, elements);
     const SerialMesh serial = revolved_mesh(meridian_blocks(scene));
-    const GmshWriter writer(serial, true, order == 1 ? 8 : 27);
+    const GmshWriter writer(serial, Arrangement::gel_on_gel, order == 1 ? 8 : 27);
     const Measurement a = measured(scene, serial),
                       b = measured(scene, read(order == 1 ? writer.format_2() : writer.format_4(), order));
     EXPECT_GT(a.normal_force, 10);
@@ -63,7 +63,8 @@ TEST(mesh_file, GivesTheForcesOfOneGel)
   scene.schedule = schedule_from_twists({1, 2}, {0.3, 0.3}, {0, 0.5});
   const SerialMesh serial = revolved_mesh(meridian_blocks(scene));
   const Measurement a = measured(scene, serial),
-                    b = measured(scene, read(GmshWriter(serial, false, 27).format_2(), 2, false));
+                    b = measured(scene, read(GmshWriter(serial, Arrangement::single_gel, 27).format_2(), 2,
+                                             Arrangement::single_gel));
   EXPECT_GT(a.torque, 1);
   EXPECT_NEAR(b.normal_force / a.normal_force, 1, 1e-10);
   EXPECT_NEAR(b.torque / a.torque, 1, 1e-10);
@@ -73,7 +74,7 @@ TEST(mesh_file, IsTheSameInBothFormats)
 {
   const SerialMesh serial = revolved_mesh(meridian_blocks(turned_gels(2, 3)));
   for (const int nodes : {8, 20, 27}) {
-    const GmshWriter writer(serial, true, nodes);
+    const GmshWriter writer(serial, Arrangement::gel_on_gel, nodes);
     const SerialMesh one = read(writer.format_2(), 2), other = read(writer.format_4(), 2);
     ASSERT_EQ(one.cell.size(), serial.cell.size());
     EXPECT_EQ(one.vertex, other.vertex);
@@ -99,9 +100,9 @@ TEST(mesh_file, FillsTheMiddlesOfTwentyNodes)
     if (X[2] == -0.5 && X[0] < 0 && X[1] > 0.9) X[0] -= 0.2; // of the edge x = 0, y = 1 of the bottom cube
     return X;
   };
-  const SerialMesh straight = read(GmshWriter(mesh, true, 27).format_2(), 2);
+  const SerialMesh straight = read(GmshWriter(mesh, Arrangement::gel_on_gel, 27).format_2(), 2);
   mesh.shape[bottom_body] = shape;
-  const SerialMesh bulging = read(GmshWriter(mesh, true, 20).format_2(), 2);
+  const SerialMesh bulging = read(GmshWriter(mesh, Arrangement::gel_on_gel, 20).format_2(), 2);
   ASSERT_EQ(bulging.middle.size(), 2 * (12 + 6 + 1));
   double moved = 0;
   for (const auto &[key, X] : bulging.middle) {
@@ -124,8 +125,8 @@ TEST(mesh_file, TurnsLeftHandedCells)
   for (SerialMesh::Cell &cell : mirrored.cell)
     for (const int v : {1, 5}) std::swap(cell.vertex[v], cell.vertex[v + 1]);
   for (int nodes : {8, 27}) {
-    const SerialMesh a = read(GmshWriter(mesh, true, nodes).format_2(), 2),
-                     b = read(GmshWriter(mirrored, true, nodes).format_2(), 2);
+    const SerialMesh a = read(GmshWriter(mesh, Arrangement::gel_on_gel, nodes).format_2(), 2),
+                     b = read(GmshWriter(mirrored, Arrangement::gel_on_gel, nodes).format_2(), 2);
     for (std::size_t k = 0; k < 2; ++k)
       for (int v = 0; v < 8; ++v) EXPECT_EQ(a.vertex[a.cell[k].vertex[v]], b.vertex[b.cell[k].vertex[v]]);
   }
@@ -134,7 +135,7 @@ TEST(mesh_file, TurnsLeftHandedCells)
 TEST(mesh_file, SaysWhatIsWrong)
 {
   const SerialMesh mesh = cubes();
-  const GmshWriter writer(mesh, true, 8);
+  const GmshWriter writer(mesh, Arrangement::gel_on_gel, 8);
   const std::string good = writer.format_2(), four = writer.format_4();
   const auto &expect = expect_refusal;
   EXPECT_EQ(refusal(good), "taken");
@@ -146,7 +147,7 @@ TEST(mesh_file, SaysWhatIsWrong)
   for (const char *name : {"top", "bottom"})
     expect(refusal(replaced(good, std::string("\"") + name + "\"", "\"other\"")),
            std::string("volume '") + name);
-  expect(refusal(good, 1, false), "of top_plate is not on the boundary of bottom");
+  expect(refusal(good, 1, Arrangement::single_gel), "of top_plate is not on the boundary of bottom");
   expect(refusal(""), "no $MeshFormat");
   expect(refusal("solid cube\n"), "line 1");
   expect(refusal(replaced(good, "2.2 0 8", "4 0 8")), "format 4");
@@ -164,10 +165,12 @@ TEST(mesh_file, SaysWhatIsWrong)
   SerialMesh spoiled = mesh;
   for (int &v : spoiled.cell[1].vertex)
     v = v > 11 ? v : v - 4; // the upper cube stands on the lower one's nodes
-  expect(refusal(GmshWriter(spoiled, true, 8).format_2()), "shares node 5 with the other body");
+  expect(refusal(GmshWriter(spoiled, Arrangement::gel_on_gel, 8).format_2()),
+         "shares node 5 with the other body");
   spoiled = mesh;
   spoiled.boundary.push_back({mesh.boundary[0].vertex, Side::master});
-  expect(refusal(GmshWriter(spoiled, true, 8).format_2()), "stands in another surface too");
+  expect(refusal(GmshWriter(spoiled, Arrangement::gel_on_gel, 8).format_2()),
+         "stands in another surface too");
 }
 
 } // namespace tribogel::test

@@ -103,7 +103,7 @@ TEST(mesh_middles, RefuseEdgesWithTwoMiddles)
 TEST(mesh_middles, RefuseFacesWithOtherMiddles)
 {
   const SerialMesh mesh = apart({lower, upper});
-  const std::string good = GmshWriter(mesh, true, 27).format_2();
+  const std::string good = GmshWriter(mesh, Arrangement::gel_on_gel, 27).format_2();
   expect_taken(judged(good, 2));
   const auto face = good.find(" 10 2 3 7 "), end = good.find('\n', face);
   for (int k = 0; k < 5; ++k) { // its nodes from the last one, which is the face's

@@ -43,7 +43,7 @@ Outcome outcome_of(const Scene &scene, Problem &problem, Recorder &recorder)
 TEST(notices, AFailureIsToldInWordsOnceAndCounted)
 {
   Scene scene = paper_scene(6);
-  scene.has_top = false;
+  scene.arrangement = Arrangement::single_gel;
   scene.bottom.material = hyperelastic_gel();
   scene.schedule = schedule_from_twists({1}, {1.3}, {0.4});
   const SolverOptions options(OptionList{{"-ts_dt", "1"}}); // too much for the cells at the plate

@@ -125,7 +125,7 @@ TEST(paper_words, NormalForceOfATwistedGelRisesByWhatItsTorsionalStiffnessGains)
 {
   const double approach = 0.414, step = 0.004, twist = 0.05;
   Scene scene = paper_scene(6);
-  scene.has_top = false;
+  scene.arrangement = Arrangement::single_gel;
   scene.bottom = {10, 4.4, viscoelastic_gel()};
   scene.schedule_kind = ScheduleKind::steady;
   scene.schedule = schedule_from_twists({100, 200, 300, 400, 500},

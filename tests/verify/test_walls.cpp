@@ -48,7 +48,7 @@ void inspect(Problem &problem, Outcome &outcome)
   outcome.beyond = 0;
   for (const Node &node : problem.mesh.nodes) {
     const double z = node.X[1] + u[node.displacement + 2]; // in the frame of the body's plate
-    const double top = scene.has_top ? scene.top.height + scene.initial_gap : -travel;
+    const double top = scene.has_top() ? scene.top.height + scene.initial_gap : -travel;
     outcome.beyond = std::max({outcome.beyond, -scene.bottom.height - z, z - top});
   }
   outcome.wall_force = 0;
@@ -84,7 +84,7 @@ Outcome outcome_of(const Scene &scene)
 Scene single_gel(int order)
 {
   Scene scene = paper_scene(order == 1 ? 12 : 7, order);
-  scene.has_top = false;
+  scene.arrangement = Arrangement::single_gel;
   scene.bottom = {10, 8, hyperelastic_gel()};
   scene.mesh.grading = 6;
   scene.schedule = around(2.4, 0.01);
@@ -93,7 +93,7 @@ Scene single_gel(int order)
 
 } // namespace
 
-/// A soft gel stuck on a stiff one, whose wall rolls on.
+/// A soft gel stuck on a stiff one, or on a plane, whose wall rolls on.
 void expect_rolling(const Scene &scene)
 {
   Problem problem;
@@ -143,6 +143,15 @@ TEST_P(walls, RollOntoTheOtherGelWithoutLossOfForceOrEnergy)
 {
   const SolverOptions options(newton_tolerance(1e-11));
   expect_rolling(mushroom(GetParam()));
+}
+
+TEST_P(walls, RollOntoARigidPlaneWithoutLossOfForceOrEnergy)
+{
+  const SolverOptions options(newton_tolerance(1e-11));
+  Scene scene = mushroom(GetParam());
+  scene.arrangement = Arrangement::gel_on_rigid;
+  scene.schedule = around(2, 0.01);
+  expect_rolling(scene);
 }
 
 TEST(walls_in_space, RollOntoTheOtherGelWithoutLossOfForceOrEnergy)

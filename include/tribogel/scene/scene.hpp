@@ -6,10 +6,12 @@
 #include "tribogel/material/viscoelastic.hpp"
 #include "tribogel/schedule/schedule.hpp"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tribogel
 {
@@ -90,12 +92,19 @@ struct OutputParameters {
   double wall_time = std::numeric_limits<double>::infinity(); ///< that the program may take [s]
 };
 
+/// What stands between the plates. The bottom plate, or the bottom gel's undeformed face, is at z = 0.
+enum class Arrangement {
+  gel_on_gel,   ///< two gels in contact, each bonded to its plate
+  gel_on_rigid, ///< the top gel, on a rigid plane that is the bottom plate: gel on glass
+  single_gel    ///< the bottom gel alone, bonded to both plates
+};
+
 /// Bodies in the (R, Z) half plane, or in space.
 enum class Model { axisymmetric, solid };
 
 struct Scene {
   Model model = Model::axisymmetric;
-  bool has_top = true; ///< false: `-specimens bottom`, one gel bonded to both plates
+  Arrangement arrangement = Arrangement::gel_on_gel;
   Specimen top, bottom;
   PlateBond plate_bond = PlateBond::glued;
   double initial_gap = 0; ///< between the gels before contact, to the lowest point of a tilted one [mm]
@@ -116,11 +125,44 @@ struct Scene {
   TimeParameters time;
   OutputParameters output;
 
+  bool has_top() const { return arrangement != Arrangement::single_gel; }
+  bool has_bottom() const { return arrangement != Arrangement::gel_on_rigid; }
+  bool has_contact() const { return has_top(); } ///< with friction, of a gel's lower face
+
+  /// From below.
+  std::vector<const Specimen *> gels() const
+  {
+    if (!has_top()) return {&bottom};
+    if (!has_bottom()) return {&top};
+    return {&bottom, &top};
+  }
+
+  /// The one that the top plate holds.
+  const Specimen &upper_gel() const { return has_top() ? top : bottom; }
+
+  /// Undeformed, without the gap [mm].
+  double gel_height() const
+  {
+    double sum = 0;
+    for (const Specimen *gel : gels()) sum += gel->height;
+    return sum;
+  }
+
+  double gap() const { return has_contact() ? initial_gap : 0; } ///< to be closed before contact [mm]
+
+  /// Equilibrium shear modulus of the softer gel [MPa].
+  double softer_modulus() const
+  {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Specimen *gel : gels()) least = std::min(least, gel->material.equilibrium.shear_modulus());
+    return least;
+  }
+
   /// Whether the plates' turning against each other loads the gels anew.
   bool loads_turn() const { return misalignment.any() || !round; }
 
   /// The length that makes a twist a displacement: the radius of the top (or only) specimen [mm].
-  double twist_length() const { return has_top ? top.radius : bottom.radius; }
+  double twist_length() const { return upper_gel().radius; }
 };
 
 } // namespace tribogel

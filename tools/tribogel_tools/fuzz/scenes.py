@@ -130,7 +130,11 @@ def sensible(random):
     alone = random.random() < 0.25
     if alone:
         settings["-specimens"] = "bottom"
-    settings |= material(random, "bottom") | schedule(random, bottom if alone else top + bottom, steady)
+    on_rigid = not alone and random.random() < 0.25
+    if on_rigid:
+        settings["-counterface"] = "rigid"
+    height = bottom if alone else top if on_rigid else top + bottom
+    settings |= material(random, "bottom") | schedule(random, height, steady)
     if not alone:
         settings |= material(random, "top") | friction(random, steady)
     extras = {"-plate_contact": random.choice(("true", "false", None)),
