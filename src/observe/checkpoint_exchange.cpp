@@ -61,6 +61,13 @@ PetscErrorCode Saver::operator()(const std::string &name, const History &history
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode Saver::operator()(const std::string &name, const FrictionHistory &history)
+{
+  PetscFunctionBeginUser;
+  if (!history.values.empty()) PetscCall((*this)(name, std::span<const double>(history.values)));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode Saver::operator()(const std::string &name, std::span<const double> numbers)
 {
   PetscFunctionBeginUser;
@@ -99,6 +106,13 @@ PetscErrorCode Loader::operator()(const std::string &name, History &history)
   PetscFunctionBeginUser;
   history.resize(orders.internal.local_size());
   PetscCall(orders.internal.Scatter(Take(name, orders.internal.size()), history.data()));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Loader::operator()(const std::string &name, FrictionHistory &history)
+{
+  PetscFunctionBeginUser;
+  if (!history.values.empty()) PetscCall((*this)(name, std::span(history.values)));
   PetscFunctionReturn(0);
 }
 

@@ -26,6 +26,7 @@ public:
 
   PetscErrorCode operator()(const std::string &name, const VecHandle &vector);
   PetscErrorCode operator()(const std::string &name, const History &history);
+  PetscErrorCode operator()(const std::string &name, const FrictionHistory &history);
   PetscErrorCode operator()(const std::string &name, std::span<const double> numbers);
   PetscErrorCode Sum(const std::string &name, const double &share);
 
@@ -52,6 +53,7 @@ public:
 
   PetscErrorCode operator()(const std::string &name, VecHandle &vector);
   PetscErrorCode operator()(const std::string &name, History &history);
+  PetscErrorCode operator()(const std::string &name, FrictionHistory &history);
   PetscErrorCode operator()(const std::string &name, std::span<double> numbers);
   PetscErrorCode Sum(const std::string &name, double &share); ///< all of it on the first process
 

@@ -198,7 +198,8 @@ PetscErrorCode Measure(const Problem &problem, Measurement &measurement, std::ve
   read_off(problem, reaction, measurement);
   if (problem.system.contact) {
     ContactResults results;
-    PetscCall(problem.system.contact->Results(problem.stepper.plates_now(), u, rate, results));
+    PetscCall(problem.system.contact->Results(problem.stepper.plates_now(), u, rate, results,
+                                              problem.stepper.friction_now()));
     reaction += results.wall;
     read_off(problem, reaction, measurement);
     if (problem.system.contact->between_gels()) {

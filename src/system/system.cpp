@@ -152,7 +152,8 @@ PetscErrorCode System::AddResidual(const EulerSolve &solve, const double *U, con
   failure.contact.clear();
   if (steady()) Udot = nullptr;
   PetscCall(PetscLogEventBegin(events.contact_residual, 0, 0, 0, 0));
-  if (contact) PetscCall(contact->AddResidual(solve.plates, U, Udot, F, sizes, failure.contact));
+  if (contact)
+    PetscCall(contact->AddResidual(solve.plates, solve.friction, U, Udot, F, sizes, failure.contact));
   PetscCall(PetscLogEventEnd(events.contact_residual, 0, 0, 0, 0));
   PetscFunctionReturn(0);
 }
@@ -169,7 +170,8 @@ PetscErrorCode System::AddJacobian(const EulerSolve &solve, const double *U, con
     Udot = nullptr;
     shift = 0;
   }
-  if (contact) PetscCall(contact->AddJacobian(solve.plates, U, Udot, shift, A, failure.contact));
+  if (contact)
+    PetscCall(contact->AddJacobian(solve.plates, solve.friction, U, Udot, shift, A, failure.contact));
   PetscCall(PetscLogEventEnd(events.contact_jacobian, 0, 0, 0, 0));
   PetscFunctionReturn(0);
 }

@@ -23,9 +23,10 @@ namespace tribogel
 
 /// One backward Euler solve, as the equations see it.
 struct EulerSolve {
-  PlateFrames plates;   ///< at its end
-  StepWeights weights;  ///< what it tells the materials
-  const History &start; ///< internal variables where it starts
+  PlateFrames plates;      ///< at its end
+  StepWeights weights;     ///< what it tells the materials
+  const History &start;    ///< internal variables where it starts
+  FrictionMemory friction; ///< what friction remembers there
 };
 
 /// What the last evaluation could not do, on every rank; words empty and no status: it could.

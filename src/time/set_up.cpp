@@ -28,6 +28,7 @@ PetscErrorCode Stepper::SetUp()
                 static_cast<Vec>(before)})
     PetscCall(VecZeroEntries(v));
   state.history = system.bulk->InitialHistory();
+  if (contact) state.friction_history = contact->InitialHistory();
   PetscCall(SetUpTs());
   PetscCall(RegisterCallbacks());
   PetscCall(SetFromOptions());

@@ -30,12 +30,23 @@ PetscErrorCode Stepper::EndStage(int index, Vec U)
 {
   SNES snes;
   CellEnergy energy;
+  Vec rate;
   PetscFunctionBeginUser;
   if (index + 1 == stages()) PetscFunctionReturn(0);
   PetscCall(VecCopy(U, stage.U));
   PetscCall(system.SumPlateLoads(stage.loads));
   PetscCall(EvaluateEnd(stage.time, stage.history, energy));
   stage.dissipated = sdirk2::reach * energy.dissipated;
+  if (!state.friction_history.values.empty()) {
+    FrictionMemory memory = friction_memory(stage.time);
+    PetscCall(DMGetGlobalVector(mesh.dm, &rate));
+    PetscCall(VecWAXPY(rate, -1, before, U));
+    PetscCall(VecScale(rate, 1 / stage.length));
+    PetscCall(AdvanceFriction(stage.time, memory, U, rate, stage.friction_start));
+    memory.weights.reach = 1;
+    PetscCall(AdvanceFriction(stage.time, memory, U, rate, stage.friction_end));
+    PetscCall(DMRestoreGlobalVector(mesh.dm, &rate));
+  }
   PetscCall(TSGetSNES(ts, &snes));
   PetscCall(SNESGetIterationNumber(snes, &stage.newton_iterations));
   PetscCall(SNESGetLinearSolveIterations(snes, &stage.linear_iterations));
@@ -150,6 +161,29 @@ PetscErrorCode Stepper::EvaluateEnd(PetscReal time, History &next, CellEnergy &e
   PetscCheck(!failure, PETSC_COMM_SELF, PETSC_ERR_PLIB, "a converged step cannot be evaluated again");
   PetscCall(VecRestoreArray(local, &values));
   PetscCall(DMRestoreLocalVector(mesh.dm, &local));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Stepper::AdvanceFriction(PetscReal time, const FrictionMemory &memory, Vec U, Vec rate,
+                                        FrictionHistory &next)
+{
+  Vec local[2];
+  const Vec global[2] = {U, rate};
+  PetscScalar *values[2];
+  PetscFunctionBeginUser;
+  for (int k = 0; k < 2; ++k) {
+    PetscCall(DMGetLocalVector(mesh.dm, &local[k]));
+    PetscCall(VecZeroEntries(local[k]));
+    PetscCall(DMGlobalToLocal(mesh.dm, global[k], INSERT_VALUES, local[k]));
+    PetscCall(VecGetArray(local[k], &values[k]));
+  }
+  system.SetBoundary(plates(time, 0), values[0], values[1]);
+  PetscCall(contact->Advance(plates(time, solve_length(time)), memory, values[0],
+                             system.steady() ? nullptr : values[1], next));
+  for (int k = 0; k < 2; ++k) {
+    PetscCall(VecRestoreArray(local[k], &values[k]));
+    PetscCall(DMRestoreLocalVector(mesh.dm, &local[k]));
+  }
   PetscFunctionReturn(0);
 }
 

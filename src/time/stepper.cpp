@@ -29,7 +29,20 @@ StepWeights Stepper::weights(double time) const
 
 EulerSolve Stepper::solve(double time) const
 {
-  return {plates(time, solve_length(time)), weights(time), start()};
+  return {plates(time, solve_length(time)), weights(time), start(), friction_memory(time)};
+}
+
+/// The second stage goes on from where the first ended if it is damped: by Euler's rule.
+FrictionMemory Stepper::friction_memory(double time) const
+{
+  if (stage.index == 0) return {state.friction_history.values, weights(time)};
+  if (!stage.damped) return {stage.friction_start.values, weights(time)};
+  return {stage.friction_end.values, {time - state.time - stage.length}};
+}
+
+FrictionMemory Stepper::friction_now() const
+{
+  return {state.friction_history.values, {system.steady() ? std::numeric_limits<double>::infinity() : 0}};
 }
 
 PlateFrames Stepper::plates(double time, double step) const
@@ -115,6 +128,7 @@ PetscErrorCode Stepper::AcceptStep(PetscReal time, Vec U)
   StepReport report;
   CellEnergy energy;
   History next;
+  FrictionHistory remembered;
   PetscFunctionBeginUser;
   PetscCall(PetscLogEventBegin(events.accept_step, 0, 0, 0, 0));
   const double step = time - state.time, until_touch = TimeUntilTouch();
@@ -122,6 +136,10 @@ PetscErrorCode Stepper::AcceptStep(PetscReal time, Vec U)
   PetscCall(SetRates(step, U));
   PetscCall(EvaluateEnd(time, next, energy));
   if (scene.time.rule == TimeRule::sdirk2) PetscCall(LargestStrain(next, state.largest_strain));
+  if (!state.friction_history.values.empty()) {
+    PetscCall(AdvanceFriction(time, friction_memory(time), U, state.Udot, remembered));
+    state.friction_history = std::move(remembered);
+  }
   stage.index = 0;
   state.history = std::move(next);
   state.stored = energy.stored;

@@ -24,13 +24,14 @@ struct SolveCounts {
 
 /// The solve at hand: Euler's rule has one a step, SDIRK2 two. Nothing of it outlives the step.
 struct Stage {
-  int index = 0;         ///< of what follows, the first (0) has nothing and leaves it to the second (1)
-  double time = 0;       ///< of the stage's end [s]
-  double length = 0;     ///< [s]
-  VecHandle U;           ///< where the first stage ended
-  History history;       ///< internal variables where the second starts
-  bool damped = false;   ///< the second goes on from the first by Euler's rule
-  PlateLoads loads{};    ///< at the end of the first
+  int index = 0;     ///< of what follows, the first (0) has nothing and leaves it to the second (1)
+  double time = 0;   ///< of the stage's end [s]
+  double length = 0; ///< [s]
+  VecHandle U;       ///< where the first stage ended
+  History history;   ///< internal variables where the second starts
+  FrictionHistory friction_start, friction_end; ///< where the second starts, and where the first ended
+  bool damped = false;                          ///< the second goes on from the first by Euler's rule
+  PlateLoads loads{};                           ///< at the end of the first
   double dissipated = 0; ///< the first stage's part of the step's, this rank's cells [N mm]
   PetscInt newton_iterations = 0, linear_iterations = 0; ///< of the first
 };
@@ -58,7 +59,8 @@ public:
   const Phase &phase() const { return scene.schedule[state.phase]; }
   PlateFrames plates(double time, double step) const; ///< at `time`, for a step of that length
   PlateFrames plates_now() const { return plates(state.time, state.step); } ///< in the accepted state
-  EulerSolve solve(double time) const;                                      ///< at hand, that ends at `time`
+  FrictionMemory friction_now() const; ///< what the contact conditions of the accepted state are told
+  EulerSolve solve(double time) const; ///< at hand, that ends at `time`
 
   /// Room for the facets that may meet soon. The old matrix is gone, and what the linear solver made of it.
   PetscErrorCode BuildMatrix();
@@ -106,8 +108,13 @@ private:
   StepWeights weights(double time) const;
   const History &start() const { return stage.index == 0 ? state.history : stage.history; }
 
+  FrictionMemory friction_memory(double time) const;
+
   PetscErrorCode EvaluateEnd(PetscReal time, History &next,
                              CellEnergy &energy) const; ///< of the solve that converged last
+  /// What friction remembers after the solve at hand, which ended at U with that rate. Collective.
+  PetscErrorCode AdvanceFriction(PetscReal time, const FrictionMemory &memory, Vec U, Vec rate,
+                                 FrictionHistory &next);
   PetscErrorCode FirstStep(PetscReal &step, PetscReal &unresolved) const; ///< of the phase [s]
   PetscErrorCode Diagnose(SNES snes, StepFailure &failure) const;
   PetscErrorCode CheckFriction(); ///< in the accepted state; may give up

@@ -6,6 +6,7 @@
 #include "probe.hpp"
 #include "support/user_error.hpp"
 #include "tribogel/friction/polynomial.hpp"
+#include "tribogel/friction/rate_and_state.hpp"
 
 #include <filesystem>
 
@@ -27,6 +28,13 @@ Scene scene_of(int order, bool both)
   if (both) scene.bottom.material = hyperelastic_gel(); // cells with and without history
   scene.schedule = schedule_from_rates({2, 5, 9}, {0.3, 0.47, 0.53}, {0, 0.013, 0.27});
   return scene;
+}
+
+Friction rate_and_state()
+{
+  RateAndStateFriction<double> law;
+  law.set({{0.05}, {0.01}, {0.007}, {0.04}, {0.03}, {2}});
+  return law;
 }
 
 /// Asks for a stop.
@@ -133,6 +141,7 @@ void expect_same_state(const State &a, const State &b)
     EXPECT_GT(size, 0);
   }
   EXPECT_EQ(a.history, b.history);
+  EXPECT_EQ(a.friction_history, b.friction_history);
   EXPECT_EQ(a.loads, b.loads);
   EXPECT_EQ(a.load_rates, b.load_rates);
   EXPECT_EQ(a.largest, b.largest);
@@ -167,10 +176,23 @@ void expect_same_rows(const std::vector<HistoryRow> &a, const std::vector<Histor
   EXPECT_LE(difference, tolerance * N);
 }
 
-class checkpoint_ranks : public ::testing::TestWithParam<std::pair<int, bool>>
+struct Case {
+  int order;
+  bool both; ///< gels
+  bool remembers = false;
+
+  Scene scene() const
+  {
+    Scene scene = scene_of(order, both);
+    if (remembers) scene.friction = rate_and_state();
+    return scene;
+  }
+};
+
+class checkpoint_ranks : public ::testing::TestWithParam<Case>
 {
 protected:
-  const Scene scene = scene_of(GetParam().first, GetParam().second);
+  const Scene scene = GetParam().scene();
   const SolverOptions options = SolverOptions(fixed_steps(0.5, 1e-12));
   const Directory directory{PETSC_COMM_WORLD};
   const double R = scene.twist_length();
@@ -229,7 +251,8 @@ TEST_P(checkpoint_ranks, GoesOnOnManyFromTheCheckpointOfOne)
 }
 
 INSTANTIATE_TEST_SUITE_P(scenes, checkpoint_ranks,
-                         ::testing::Values(std::pair{1, true}, std::pair{2, true}, std::pair{2, false}));
+                         ::testing::Values(Case{1, true}, Case{2, true}, Case{2, false},
+                                           Case{1, true, true}));
 
 /// A checkpoint of another mesh is refused, on all ranks.
 TEST(checkpoint_scene, MustFit)

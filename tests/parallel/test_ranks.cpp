@@ -5,6 +5,7 @@
 #include "hertz.hpp"
 #include "probe.hpp"
 #include "tribogel/friction/polynomial.hpp"
+#include "tribogel/friction/rate_and_state.hpp"
 
 namespace tribogel::test
 {
@@ -73,6 +74,29 @@ TEST_P(ranks, GiveTheNumbersOfOne)
 INSTANTIATE_TEST_SUITE_P(scenes, ranks,
                          ::testing::Values(std::pair{1, 0.0}, std::pair{2, 0.0}, std::pair{1, 0.07},
                                            std::pair{2, 0.07}));
+
+/// So does what friction remembers: it is the same list on every rank.
+TEST(ranks_memory, IsThatOfOne)
+{
+  RateAndStateFriction<double> law;
+  law.set({{0.05}, {0.01}, {0.007}, {0.04}, {0.03}, {2}});
+  const SolverOptions options(fixed_steps(0.5, 1e-12));
+  Scene scene = scene_of(2, 0);
+  scene.friction = law;
+  Problem shared, single;
+  Recorder many(""), one("");
+  run_on(PETSC_COMM_WORLD, scene, meridian_blocks(scene), shared, many);
+  run_on(PETSC_COMM_SELF, scene, meridian_blocks(scene), single, one);
+  const std::vector<double> &ages = shared.stepper.state.friction_history.values,
+                            &alone = single.stepper.state.friction_history.values;
+  ASSERT_EQ(ages.size(), alone.size());
+  ASSERT_GE(ages.size(), shared.system.mesh.slave.node.size());
+  for (std::size_t k = 0; k < ages.size(); ++k) EXPECT_NEAR(ages[k] / alone[k], 1, 1e-8);
+  EXPECT_LT(*std::min_element(ages.begin(), ages.end()), 2); // some have slid
+  const Measurement &a = many.rows.back().measurement, &b = one.rows.back().measurement;
+  EXPECT_NEAR(a.normal_force / b.normal_force, 1, 1e-10);
+  EXPECT_NEAR(a.torque / b.torque, 1, 1e-9);
+}
 
 /// So does an outline that no option gives: a spherical cap of curved elements, pressed and turned.
 TEST(ranks_outline, GivesTheNumbersOfOne)

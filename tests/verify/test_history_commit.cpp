@@ -1,8 +1,10 @@
-/// A rejected step leaves nothing behind: neither in the unknowns nor in the internal variables, energies or
-/// the start of the next step. A run whose steps fail (Newton's iterations run out) or are rejected (error
-/// estimate) is compared with one that takes the same accepted steps and rejects none.
+/// A rejected step leaves nothing behind: neither in the unknowns nor in the internal variables, what
+/// friction remembers, energies or the start of the next step. A run whose steps fail (Newton's iterations
+/// run out) or are rejected (error estimate) is compared with one that takes the same accepted steps and
+/// rejects none.
 #include "probe.hpp"
 #include "tribogel/friction/polynomial.hpp"
+#include "tribogel/friction/rate_and_state.hpp"
 
 namespace tribogel::test
 {
@@ -12,11 +14,20 @@ namespace
 
 constexpr TimeRule rules[] = {TimeRule::exponential_euler, TimeRule::sdirk2};
 
-Scene scene_of(int order, TimeRule rule)
+const Friction viscous(PolynomialFriction<double>{{0, 0.013}, {0, 1}});
+
+Friction rate_and_state()
+{
+  RateAndStateFriction<double> law;
+  law.set({{0.03}, {0.01}, {0.007}, {0.4}, {0.3}, {2}});
+  return law;
+}
+
+Scene scene_of(int order, TimeRule rule, const Friction &friction = viscous)
 {
   Scene scene = paper_scene(4, order);
   scene.time.rule = rule;
-  scene.friction = PolynomialFriction<double>{{0, 0.013}, {0, 1}};
+  scene.friction = friction;
   scene.schedule = schedule_from_rates({8}, {0.57}, {0.3});
   return scene;
 }
@@ -51,6 +62,11 @@ void expect_same_end(const Problem &a, const Problem &b, double tolerance)
     strain = std::max(strain, std::abs(a.stepper.state.history[k] - b.stepper.state.history[k]));
   EXPECT_LE(difference, tolerance);
   EXPECT_LE(strain, tolerance);
+  const std::vector<double> &ages = a.stepper.state.friction_history.values,
+                            &others = b.stepper.state.friction_history.values;
+  EXPECT_EQ(ages.size(), a.system.scene.friction.has_memory() ? a.system.mesh.slave.node.size() : 0);
+  ASSERT_EQ(ages.size(), others.size());
+  for (std::size_t k = 0; k < ages.size(); ++k) EXPECT_NEAR(ages[k], others[k], 100 * tolerance * ages[k]);
   EXPECT_NEAR(a.stepper.state.dissipated, b.stepper.state.dissipated, tolerance * b.stepper.state.dissipated);
   EXPECT_GT(b.stepper.state.dissipated, 1e-3);
 }
@@ -85,21 +101,21 @@ TEST(history_commit, AFailedSolveLeavesNothingBehind)
 namespace
 {
 
-void expect_no_trace_of_rejection(TimeRule rule, const char *tolerance)
+void expect_no_trace_of_rejection(TimeRule rule, const char *tolerance, const Friction &friction = viscous)
 {
   Problem adaptive, replayed;
   Recorder with(""), without("");
   const SolverOptions tight({{"-snes_rtol", "1e-13"}, {"-ts_dt", "0.5"}});
   {
     const SolverOptions options({std::pair<std::string, std::string>{"-ts_atol", tolerance}});
-    run(scene_of(2, rule), adaptive, with);
+    run(scene_of(2, rule, friction), adaptive, with);
   }
   EXPECT_GE(adaptive.stepper.counts.rejected_steps, 1);
   const SolverOptions options({{"-ts_adapt_type", "none"}, {"-ts_dt", text_of(with.rows[1].time)}});
   Replay replay(with.rows);
   bool completed = false;
   std::string why;
-  ASSERT_EQ(replayed.SetUp(PETSC_COMM_WORLD, scene_of(2, rule)), 0);
+  ASSERT_EQ(replayed.SetUp(PETSC_COMM_WORLD, scene_of(2, rule, friction)), 0);
   ASSERT_EQ(replayed.Run({&without, &replay}, completed, why), 0);
   ASSERT_TRUE(completed) << why;
   EXPECT_EQ(replayed.stepper.counts.rejected_steps, 0);
@@ -115,6 +131,8 @@ TEST(history_commit, AStepRejectedForItsErrorLeavesNothingBehind)
 {
   expect_no_trace_of_rejection(TimeRule::exponential_euler, "3e-3");
   expect_no_trace_of_rejection(TimeRule::sdirk2, "1e-4");
+  expect_no_trace_of_rejection(TimeRule::exponential_euler, "3e-3", rate_and_state());
+  expect_no_trace_of_rejection(TimeRule::sdirk2, "1e-4", rate_and_state());
 }
 
 } // namespace tribogel::test

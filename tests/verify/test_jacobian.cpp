@@ -7,6 +7,7 @@
 /// itself, (64 eps x sum of absolute forces + 16 x round-off of the unloaded body) / h.
 #include "probe.hpp"
 #include "tribogel/friction/polynomial.hpp"
+#include "tribogel/friction/rate_and_state.hpp"
 #include "wall_scenes.hpp"
 
 #include <limits>
@@ -26,6 +27,7 @@ struct Case {
   double traction; ///< largest random traction [MPa]
   bool wanted[3];  ///< open, stick, slip must occur
   double pressure_exponent = 1;
+  Friction other = {}; ///< in place of the polynomial law
 };
 
 Scene scene_of(const Case &c)
@@ -37,6 +39,7 @@ Scene scene_of(const Case &c)
   scene.initial_gap = c.gap;
   scene.friction = PolynomialFriction<double>{c.coefficients, c.exponents, c.pressure_exponent,
                                               0.3}; // pressures on both sides of the floor
+  if (c.other.law()) scene.friction = c.other;
   scene.schedule = schedule_from_rates({2.3, 4.1}, {0.31, 0.37}, {0.013, 0.17});
   scene.bottom_plate_rate = 0.021;
   scene.mesh.grading = 2;
@@ -168,6 +171,15 @@ TEST_P(jacobian, OfAPressureExponent)
 TEST_P(jacobian, OfKagatasLawOverTheEdge)
 {
   check({GetParam(), 9.7, 0.03, {0.3}, {0.7}, 1.3, {true, false, true}, 0.5}, 0.37);
+}
+
+/// What it remembers depends on the speed in the solve at hand; long solves weaken.
+TEST_P(jacobian, OfALawWithMemory)
+{
+  RateAndStateFriction<double> law;
+  law.set({{0.5}, {0.17}, {0.21}, {0.11}, {0.3}, {0.7}});
+  for (const double step : {0.37, 23.0})
+    check({GetParam(), 12.5, 0.03, {}, {}, 1.3, {true, false, true}, 1, law}, step);
 }
 
 TEST_P(jacobian, OfWallsThatTouchTheirPlateAndRollOntoTheOtherGel)
