@@ -21,8 +21,8 @@ namespace
 {
 
 constexpr double mu_0 = 0.3, a = 0.03, b = 0.04, L = 0.004, v_0 = 0.02, theta_0 = 0.5;
-constexpr double R = 1.5e5, width = 150, compression = 2e-5; // undeformed [mm]
-constexpr double top_height = 660, heights = top_height + 600, speeds[2] = {0.01, 0.03},
+constexpr double R = 3e5, width = 300, compression = 1e-5; // undeformed [mm]
+constexpr double top_height = 1320, heights = top_height + 1200, speeds[2] = {0.01, 0.03},
                  phase_ends[] = {1, 3, 9, 11};
 const UniaxialState state = uniaxial_state(hyperelastic_gel().equilibrium, 1 - compression);
 
