@@ -4,6 +4,8 @@
 #include "gmsh/checks.hpp"
 #include "mesh/cylinder.hpp"
 #include "mesh/face.hpp"
+#include "options/discretisation_options.hpp"
+#include "options/sizes.hpp"
 #include "support/first_process.hpp"
 #include "support/parse.hpp"
 
@@ -150,7 +152,7 @@ std::string read_file(SceneInput &input, SerialMesh &mesh, SpecimenSizes &sizes)
   const std::string file = "-mesh_file = " + path + ": ";
   if (!std::filesystem::exists(path, ignored))
     return file + "does not exist; allowed: " +
-           (scene.output.restart ? "with -restart, -mesh_file with the path that the mesh of that run has now"
+           (input.output.restart ? "with -restart, -mesh_file with the path that the mesh of that run has now"
                                  : "a Gmsh file, its path relative to the working directory");
   if (!std::filesystem::is_regular_file(path, ignored))
     return file + "is no regular file; allowed: a Gmsh file";
@@ -185,8 +187,7 @@ PetscErrorCode MakeMesh(MPI_Comm comm, SceneInput &input, SerialMesh &mesh)
   SpecimenSizes sizes;
   PetscFunctionBeginUser;
   if (input.mesh_file.empty()) {
-    const auto blocks = meridian_blocks(scene);
-    mesh = scene.model == Model::solid ? revolved_mesh(blocks) : serial_mesh(blocks);
+    mesh = mesh_of(scene.model, meridian_blocks(scene));
     PetscFunctionReturn(0);
   }
   PetscCall(OnFirstProcess(comm, [&] { return read_file(input, mesh, sizes); }));

@@ -149,4 +149,9 @@ SerialMesh revolved_mesh(const std::vector<MeridianBlock> &blocks)
   return mesh;
 }
 
+SerialMesh mesh_of(Model model, const std::vector<MeridianBlock> &blocks)
+{
+  return model == Model::solid ? revolved_mesh(blocks) : serial_mesh(blocks);
+}
+
 } // namespace tribogel

@@ -19,4 +19,7 @@ namespace tribogel
 /// right places for midside nodes, and those on the outline lie on the circle.
 SerialMesh revolved_mesh(const std::vector<MeridianBlock> &blocks);
 
+/// The blocks as the model takes them: in the half plane, or turned about the axis.
+SerialMesh mesh_of(Model model, const std::vector<MeridianBlock> &blocks);
+
 } // namespace tribogel

@@ -1,5 +1,6 @@
 /// Where the nodes are, who owns them, and which of them a cell has.
 #include "mesh/mesh.hpp"
+#include "support/petsc_arrays.hpp"
 
 #include <petscsf.h>
 
@@ -98,7 +99,7 @@ PetscErrorCode Mesh::Place()
   PetscSF sf;
   Vec coordinates;
   PetscSection coordinate_section;
-  const PetscScalar *X;
+  ConstArray X;
   PetscFunctionBeginUser;
   PetscCall(DMPlexGetChart(dm, nullptr, &end));
   PetscCall(DMGetPointSF(dm, &sf));
@@ -107,7 +108,7 @@ PetscErrorCode Mesh::Place()
   for (PetscInt k = 0; k < leaves; ++k) ghost[leaf ? leaf[k] : k] = 1;
   PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
   PetscCall(DMGetCoordinateSection(dm, &coordinate_section));
-  PetscCall(VecGetArrayRead(coordinates, &X));
+  PetscCall(X.Get(coordinates));
   for (Node &node : nodes) {
     node.owned = !ghost[node.point];
     PetscInt size, *closure = nullptr;
@@ -124,7 +125,6 @@ PetscErrorCode Mesh::Place()
     PetscCall(DMPlexRestoreTransitiveClosure(dm, node.point, PETSC_TRUE, &size, &closure));
     for (double &x : node.X) x /= vertices;
   }
-  PetscCall(VecRestoreArrayRead(coordinates, &X));
   PetscFunctionReturn(0);
 }
 
@@ -133,20 +133,21 @@ PetscErrorCode Mesh::Shape(const SerialMesh &serial)
 {
   Vec coordinates;
   PetscSection section;
-  PetscScalar *X;
   PetscInt first, last, offset;
   PetscFunctionBeginUser;
   PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
   PetscCall(DMGetCoordinateSection(dm, &section));
   PetscCall(DMPlexGetDepthStratum(dm, 0, &first, &last));
-  PetscCall(VecGetArray(coordinates, &X));
-  for (Node &node : nodes) {
-    if (serial.shape[node.body]) node.X = serial.shape[node.body](node.X);
-    if (node.point < first || node.point >= last) continue;
-    PetscCall(PetscSectionGetOffset(section, node.point, &offset));
-    for (int j = 0; j < dim; ++j) X[offset + j] = node.X[j];
+  {
+    MutableArray X;
+    PetscCall(X.Get(coordinates));
+    for (Node &node : nodes) {
+      if (serial.shape[node.body]) node.X = serial.shape[node.body](node.X);
+      if (node.point < first || node.point >= last) continue;
+      PetscCall(PetscSectionGetOffset(section, node.point, &offset));
+      for (int j = 0; j < dim; ++j) X[offset + j] = node.X[j];
+    }
   }
-  PetscCall(VecRestoreArray(coordinates, &X));
   PetscCall(DMSetCoordinatesLocal(dm, coordinates)); // drops the global ones
   PetscFunctionReturn(0);
 }

@@ -1,8 +1,7 @@
 #include "observe/checkpoint.hpp"
 
-#include "observe/record_numbers.hpp"
+#include "observe/record.hpp"
 #include "support/first_process.hpp"
-#include "support/stop_signals.hpp"
 #include "support/version.hpp"
 
 #include <algorithm>
@@ -21,7 +20,7 @@ const std::string kind = std::string("checkpoint of tribogel ") + version;
 
 constexpr const char *mesh_name = "mesh"; ///< of its digest in the file
 
-template <class Visitor> PetscErrorCode VisitCounts(SolveCounts &counts, Visitor &visit)
+template <class AnyCounts, class Visitor> PetscErrorCode VisitCounts(AnyCounts &counts, Visitor &visit)
 {
   PetscFunctionBeginUser;
   PetscCall(visit("accepted_steps", counts.accepted_steps));
@@ -43,6 +42,29 @@ template <class Visitor> PetscErrorCode VisitCost(RunCost &cost, Visitor &visit)
   PetscCall(visit("wall_seconds", cost.wall_seconds));
   PetscCall(visit("restarts", cost.restarts));
   PetscFunctionReturn(0);
+}
+
+/// A record's numbers, and their names; older checkpoints have no names and call the numbers something else.
+struct RecordName {
+  const char *numbers, *names, *before;
+};
+constexpr RecordName steps_name{"history", "history_columns", "rows"};
+constexpr RecordName phase_ends_name{"phase_ends", "phase_end_columns", "phases"};
+
+PetscErrorCode Load(Loader &load, const RecordName &place, const std::string &unwritten_names, Record &record)
+{
+  PetscFunctionBeginUser;
+  PetscCall(load.Text(place.names, record.names));
+  const bool named = !record.names.empty();
+  if (!named) record.names = unwritten_names;
+  PetscCall(load.Table(named ? place.numbers : place.before, record.numbers));
+  PetscFunctionReturn(0);
+}
+
+void put(const Record &record, const RecordName &place, DataFile &data)
+{
+  data.numbers[place.numbers] = record.numbers;
+  data.texts[place.names] = record.names;
 }
 
 } // namespace
@@ -79,7 +101,7 @@ PetscErrorCode ExpectSameMesh(MPI_Comm comm, const StoredRun &stored, const std:
   PetscFunctionReturn(0);
 }
 
-Checkpoint::Checkpoint(Recorder &record, OutputParameters where, std::string all_options, std::string of_mesh,
+Checkpoint::Checkpoint(Recorder &record, OutputSettings where, std::string all_options, std::string of_mesh,
                        double start)
     : recorder(record), output(std::move(where)), options(std::move(all_options)), mesh(std::move(of_mesh)),
       wall_start(start)
@@ -96,19 +118,22 @@ PetscErrorCode Checkpoint::Orders(const Problem &problem)
 
 PetscErrorCode Checkpoint::Restore(const StoredRun &stored, Problem &problem)
 {
-  std::vector<double> rows, phases, bytes;
+  Record rows, phases;
+  std::vector<double> bytes;
   PetscFunctionBeginUser;
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.state.U)));
+  const MPI_Comm comm =
+      PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.stepper.state.U)));
   PetscCall(Orders(problem));
   Loader load(*orders, comm, stored.data);
-  PetscCall(VisitState(problem.state, load));
-  PetscCall(VisitCounts(problem.counts, load));
+  PetscCall(VisitState(problem.stepper.state, load));
+  PetscCall(VisitCounts(problem.stepper.counts, load));
   PetscCall(VisitCost(earlier, load));
-  PetscCall(load.Table("rows", rows));
-  PetscCall(load.Table("phases", phases));
+  PetscCall(Load(load, steps_name, unwritten_row_names(), rows));
+  PetscCall(Load(load, phase_ends_name, unwritten_phase_end_names(), phases));
   PetscCall(load.Table("bytes", bytes));
-  const bool whole = rows_of(rows, recorder.rows) && !recorder.rows.empty() &&
-                     rows_of(phases, recorder.phases) && bytes.size() == recorder.bytes.size();
+  const bool whole = read_record(rows, recorder.rows) && !recorder.rows.empty() &&
+                     read_record(phases, recorder.rows, recorder.phases) &&
+                     bytes.size() == recorder.bytes.size();
   PetscCall(OnFirstProcess(comm, [&]() -> std::string {
     const std::string place = "-restart = " + stored.directory + ": ";
     if (!load.complaint.empty() || !whole)
@@ -125,61 +150,60 @@ PetscErrorCode Checkpoint::Restore(const StoredRun &stored, Problem &problem)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Checkpoint::Start(Problem &problem)
+PetscErrorCode Checkpoint::Start(const Problem &problem)
 {
   PetscFunctionBeginUser;
-  last_step = last_written = MPI_Wtime();
+  ask = ask_signals_and_clock(wall_start, output.wall_time);
+  last_written = MPI_Wtime();
   if (!restored) PetscCall(Write(problem));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Checkpoint::Step(Problem &problem, const StepReport &report)
+PetscErrorCode Checkpoint::Step(const Problem &problem, const StepReport &report)
 {
   PetscFunctionBeginUser;
-  const double now = MPI_Wtime();
-  longest_step = std::max(longest_step, now - last_step);
-  last_step = now;
-  // Signals and clocks differ between the ranks.
-  enum { signal, time_over, due, wishes };
-  int wish[wishes] = {caught_stop_signal(), now - wall_start + longest_step > output.wall_time,
-                      now - last_written >= output.checkpoint_every};
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.state.U)));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, wish, wishes, MPI_INT, MPI_MAX, comm));
-  const bool over = problem.state.time == problem.scene.schedule.back().end_time;
-  const bool stop = !over && (wish[signal] || wish[time_over]);
-  if (stop || wish[due] || report.ends_phase) PetscCall(Write(problem));
-  if (stop && problem.stop_reason.empty()) {
+  const MPI_Comm comm =
+      PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.stepper.state.U)));
+  std::string why;
+  PetscCall(ask(comm, why));
+  int due = MPI_Wtime() - last_written >= output.checkpoint_every; // clocks differ between the ranks
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &due, 1, MPI_INT, MPI_MAX, comm));
+  const bool over = problem.stepper.state.time == problem.system.scene.schedule.back().end_time;
+  const bool ends = !over && !why.empty();
+  if (ends || due || report.ends_phase) PetscCall(Write(problem));
+  if (ends) {
     char when[64];
-    std::snprintf(when, sizeof when, " at t = %.10g s, to be continued with -restart ", problem.state.time);
-    problem.stop_request = std::string("stopped by ") +
-                           (wish[signal] ? stop_signal_name(wish[signal]) : "-wall_time") + when +
-                           output.directory;
+    std::snprintf(when, sizeof when, " at t = %.10g s, to be continued with -restart ",
+                  problem.stepper.state.time);
+    stop.request(why + when + output.directory);
   }
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Checkpoint::Write(Problem &problem)
+PetscErrorCode Checkpoint::Write(const Problem &problem)
 {
   DataFile data;
   RunCost cost;
   PetscMPIInt rank;
   PetscFunctionBeginUser;
   if (!recorder.complaint.empty()) PetscFunctionReturn(0); // the last one fits what is in the files
-  PetscCall(PetscLogEventBegin(problem.events.checkpoint, 0, 0, 0, 0));
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.state.U)));
+  PetscCall(events.Register());
+  PetscCall(PetscLogEventBegin(events.checkpoint, 0, 0, 0, 0));
+  const MPI_Comm comm =
+      PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.stepper.state.U)));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(Orders(problem));
   Saver save(*orders, comm, data);
-  PetscCall(VisitState(problem.state, save));
-  PetscCall(VisitCounts(problem.counts, save));
+  PetscCall(VisitState(problem.stepper.state, save));
+  PetscCall(VisitCounts(problem.stepper.counts, save));
   PetscCall(Cost(comm, cost));
   PetscCall(VisitCost(cost, save));
   std::string complaint;
   const auto write = [&] {
     if (std::string failed = recorder.bring_to_disk(); !failed.empty())
       return failed + recorder.way_out(problem);
-    data.numbers["rows"] = numbers_of(recorder.rows);
-    data.numbers["phases"] = numbers_of(recorder.phases);
+    put(record_of(recorder.rows), steps_name, data);
+    put(record_of(recorder.phases), phase_ends_name, data);
     data.numbers["bytes"].assign(recorder.bytes.begin(), recorder.bytes.end());
     data.texts["options"] = options;
     data.texts[mesh_name] = mesh;
@@ -189,9 +213,9 @@ PetscErrorCode Checkpoint::Write(Problem &problem)
     return failed.empty() ? failed : failed + recorder.way_out(problem);
   };
   PetscCall(OnFirstProcess(comm, write, complaint)); // PETSc calls this: nothing may be thrown
-  if (!complaint.empty()) problem.stop_for(complaint);
+  if (!complaint.empty()) stop.give_up(complaint);
   last_written = MPI_Wtime();
-  PetscCall(PetscLogEventEnd(problem.events.checkpoint, 0, 0, 0, 0));
+  PetscCall(PetscLogEventEnd(events.checkpoint, 0, 0, 0, 0));
   PetscFunctionReturn(0);
 }
 

@@ -5,7 +5,9 @@
 
 #include "observe/checkpoint_exchange.hpp"
 #include "observe/recorder.hpp"
+#include "observe/stop_question.hpp"
 #include "observe/summary.hpp"
+#include "support/settings.hpp"
 
 #include <optional>
 
@@ -31,18 +33,18 @@ class Checkpoint : public Observer
 public:
   /// `options` as text_of_options gives them, the mesh by its digest on the first process, `wall_start` as
   /// MPI_Wtime.
-  Checkpoint(Recorder &recorder, OutputParameters output, std::string options, std::string mesh,
+  Checkpoint(Recorder &recorder, OutputSettings output, std::string options, std::string mesh,
              double wall_start);
 
   /// Problem, recorder and costs as they were. Throws UserError if the checkpoint does not fit. Collective.
   PetscErrorCode Restore(const StoredRun &stored, Problem &problem);
 
-  PetscErrorCode Start(Problem &problem) override;
-  PetscErrorCode Step(Problem &problem, const StepReport &report) override;
+  PetscErrorCode Start(const Problem &problem) override;
+  PetscErrorCode Step(const Problem &problem, const StepReport &report) override;
 
   /// One that cannot be written ends the run and leaves the last one; nor is there a new one where rows are
   /// missing.
-  PetscErrorCode Write(Problem &problem);
+  PetscErrorCode Write(const Problem &problem);
 
   /// Of this program and of those it continues. Collective.
   PetscErrorCode Cost(MPI_Comm comm, RunCost &cost) const;
@@ -51,12 +53,14 @@ private:
   PetscErrorCode Orders(const Problem &problem);
 
   Recorder &recorder;
-  OutputParameters output;
+  OutputSettings output;
   std::string options, mesh;
-  double wall_start, last_step = 0, last_written = 0, longest_step = 0; ///< [s]
+  double wall_start, last_written = 0; ///< [s]
+  StopQuestion ask;
   bool restored = false;
   RunCost earlier;
   std::optional<NaturalOrders> orders;
+  LogEvents events;
 };
 
 } // namespace tribogel

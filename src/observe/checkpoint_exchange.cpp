@@ -1,6 +1,7 @@
 #include "observe/checkpoint_exchange.hpp"
 
 #include "support/first_process.hpp"
+#include "support/petsc_arrays.hpp"
 
 namespace tribogel
 {
@@ -23,36 +24,35 @@ PetscErrorCode NaturalOrders::SetUp(const Problem &problem)
 {
   std::vector<long long> keys;
   PetscFunctionBeginUser;
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.state.U)));
-  for (std::size_t k = 0; k < problem.group.size(); ++k) // a node has one unknown of each group
-    keys.push_back(static_cast<long long>(problem.mesh.nodes[problem.node_of_row[k]].natural) *
+  const MPI_Comm comm =
+      PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.stepper.state.U)));
+  for (std::size_t k = 0; k < problem.system.rows.group.size(); ++k) // a node has one unknown of each group
+    keys.push_back(static_cast<long long>(problem.system.mesh.nodes[problem.system.rows.node[k]].natural) *
                        residual_groups +
-                   problem.group[k]);
+                   problem.system.rows.group[k]);
   PetscCall(unknowns.SetUp(comm, keys, std::vector<int>(keys.size(), 1)));
 
-  const std::vector<std::size_t> offset = problem.bulk->HistoryOffsets();
+  const std::vector<std::size_t> offset = problem.system.bulk->HistoryOffsets();
   std::vector<int> lengths;
   keys.clear();
   for (std::size_t n = 0; n + 1 < offset.size(); ++n) {
-    keys.push_back(problem.mesh.cells[n].natural);
+    keys.push_back(problem.system.mesh.cells[n].natural);
     lengths.push_back(static_cast<int>(offset[n + 1] - offset[n]));
   }
   PetscCall(internal.SetUp(comm, keys, lengths));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Saver::operator()(const std::string &name, VecHandle &vector)
+PetscErrorCode Saver::operator()(const std::string &name, const VecHandle &vector)
 {
-  const PetscScalar *values;
-  std::vector<double> all;
+  ConstArray values;
   PetscFunctionBeginUser;
-  PetscCall(VecGetArrayRead(vector, &values));
+  PetscCall(values.Get(vector));
   PetscCall(orders.unknowns.Gather(values, file.numbers[name]));
-  PetscCall(VecRestoreArrayRead(vector, &values));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Saver::operator()(const std::string &name, History &history)
+PetscErrorCode Saver::operator()(const std::string &name, const History &history)
 {
   PetscFunctionBeginUser;
   PetscCheck(history.size() == orders.internal.local_size(), PETSC_COMM_SELF, PETSC_ERR_PLIB,
@@ -61,21 +61,21 @@ PetscErrorCode Saver::operator()(const std::string &name, History &history)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Saver::operator()(const std::string &name, FrictionHistory &history)
+PetscErrorCode Saver::operator()(const std::string &name, const FrictionHistory &history)
 {
   PetscFunctionBeginUser;
-  if (!history.values.empty()) PetscCall((*this)(name, std::span(history.values)));
+  if (!history.values.empty()) PetscCall((*this)(name, std::span<const double>(history.values)));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Saver::operator()(const std::string &name, std::span<double> numbers)
+PetscErrorCode Saver::operator()(const std::string &name, std::span<const double> numbers)
 {
   PetscFunctionBeginUser;
   file.numbers[name].assign(numbers.begin(), numbers.end());
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Saver::Sum(const std::string &name, double &share)
+PetscErrorCode Saver::Sum(const std::string &name, const double &share)
 {
   double sum = share;
   PetscFunctionBeginUser;
@@ -94,11 +94,10 @@ std::vector<double> Loader::Take(const std::string &name, std::size_t size)
 
 PetscErrorCode Loader::operator()(const std::string &name, VecHandle &vector)
 {
-  PetscScalar *values;
+  MutableArray values;
   PetscFunctionBeginUser;
-  PetscCall(VecGetArray(vector, &values));
+  PetscCall(values.Get(vector));
   PetscCall(orders.unknowns.Scatter(Take(name, orders.unknowns.size()), values));
-  PetscCall(VecRestoreArray(vector, &values));
   PetscFunctionReturn(0);
 }
 
@@ -153,6 +152,19 @@ PetscErrorCode Loader::Table(const std::string &name, std::vector<double> &numbe
       complaint = name;
   }
   PetscCall(Broadcast(comm, numbers));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Loader::Text(const std::string &name, std::string &text)
+{
+  bool first;
+  PetscFunctionBeginUser;
+  PetscCall(RankOf(comm, first));
+  if (first) {
+    const auto found = file.texts.find(name);
+    text = found == file.texts.end() ? "" : found->second;
+  }
+  PetscCall(Broadcast(comm, text));
   PetscFunctionReturn(0);
 }
 

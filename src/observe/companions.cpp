@@ -1,11 +1,9 @@
 #include "observe/companions.hpp"
 
 #include "mesh/cylinder.hpp"
-#include "mesh/meridian.hpp"
 #include "observe/cost.hpp"
 #include "support/parse.hpp"
 #include "support/petsc_session.hpp"
-#include "support/stop_signals.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,11 +46,11 @@ int fewest_elements(const Scene &scene)
 class PhaseEnds : public Observer
 {
 public:
-  PhaseEnds(const WishToStop &stop, std::vector<PlateLoads> &loads) : wish(stop), ends(loads) {}
+  PhaseEnds(const StopQuestion &asked, std::vector<PlateLoads> &loads) : ask(asked), ends(loads) {}
 
-  PetscErrorCode Start(Problem &) override { return 0; }
+  PetscErrorCode Start(const Problem &) override { return 0; }
 
-  PetscErrorCode Step(Problem &problem, const StepReport &report) override
+  PetscErrorCode Step(const Problem &problem, const StepReport &report) override
   {
     PetscFunctionBeginUser;
     if (report.ends_phase) {
@@ -60,42 +58,45 @@ public:
       PetscCall(Measure(problem, measured, nullptr));
       ends.push_back({measured.normal_force, measured.torque});
     }
-    const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.state.U)));
-    PetscCall(wish(comm, problem.stop_request));
+    const MPI_Comm comm =
+        PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.stepper.state.U)));
+    std::string why;
+    PetscCall(ask(comm, why));
+    if (!why.empty()) stop.request(why);
     PetscFunctionReturn(0);
   }
 
 private:
-  const WishToStop &wish;
+  const StopQuestion &ask;
   std::vector<PlateLoads> &ends;
 };
 
 /// Other steps, whichever option the run's follow (-time_tolerance, or -ts_atol, which has the last word).
-PetscErrorCode ScaleTolerance(Problem &problem, double factor)
+PetscErrorCode ScaleTolerance(const Problem &problem, double factor)
 {
   PetscReal tolerance;
   PetscFunctionBeginUser;
-  PetscCall(TSGetTolerances(problem.ts, &tolerance, nullptr, nullptr, nullptr));
-  PetscCall(TSSetTolerances(problem.ts, factor * tolerance, nullptr, PETSC_DECIDE, nullptr));
+  PetscCall(TSGetTolerances(problem.stepper.ts, &tolerance, nullptr, nullptr, nullptr));
+  PetscCall(TSSetTolerances(problem.stepper.ts, factor * tolerance, nullptr, PETSC_DECIDE, nullptr));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Solve(MPI_Comm comm, const Scene &scene, SerialMesh mesh, const WishToStop &wish,
+PetscErrorCode Solve(MPI_Comm comm, const Scene &scene, SerialMesh mesh, const StopQuestion &ask,
                      Companion &companion, bool &stopped)
 {
   Problem problem;
-  PhaseEnds observer(wish, companion.ends);
+  PhaseEnds observer(ask, companion.ends);
   bool completed = false;
   SNES snes;
   PetscFunctionBeginUser;
   PetscCall(problem.SetUp(comm, scene, std::move(mesh)));
   PetscCall(ScaleTolerance(problem, companion.tolerance_over));
   PetscCall(problem.Run({&observer}, completed, companion.failure));
-  PetscCall(TSGetSNES(problem.ts, &snes));
+  PetscCall(TSGetSNES(problem.stepper.ts, &snes));
   PetscCall(SNESGetTolerances(snes, nullptr, &companion.newton_tolerance, nullptr, nullptr, nullptr));
-  companion.unknowns = problem.mesh.unknowns;
-  companion.steps = problem.counts.accepted_steps;
-  stopped = !problem.stop_request.empty();
+  companion.unknowns = problem.system.mesh.unknowns;
+  companion.steps = problem.stepper.counts.accepted_steps;
+  stopped = problem.stepper.stop.is_request();
   if (completed) companion.failure.clear();
   PetscFunctionReturn(0);
 }
@@ -132,24 +133,8 @@ std::vector<Companion> time_companions(const Scene &scene)
   return {companion};
 }
 
-WishToStop wish_to_stop(double wall_start, double wall_time)
-{
-  return [=, asked = MPI_Wtime(), longest = 0.0](MPI_Comm comm, std::string &why) mutable -> PetscErrorCode {
-    const double now = MPI_Wtime();
-    PetscFunctionBeginUser;
-    longest = std::max(longest, now - asked);
-    asked = now;
-    enum { signal, time_over, wishes };
-    int wish[wishes] = {caught_stop_signal(), now - wall_start + longest > wall_time};
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, wish, wishes, MPI_INT, MPI_MAX, comm));
-    if (wish[signal] || wish[time_over])
-      why = std::string("stopped by ") + (wish[signal] ? stop_signal_name(wish[signal]) : "-wall_time");
-    PetscFunctionReturn(0);
-  };
-}
-
 PetscErrorCode RunCompanion(MPI_Comm comm, const Scene &scene, const SerialMesh *serial,
-                            const WishToStop &wish, Companion &companion, bool &stopped)
+                            const StopQuestion &ask, Companion &companion, bool &stopped)
 {
   RunCost before, after;
   Scene own = scene;
@@ -159,11 +144,8 @@ PetscErrorCode RunCompanion(MPI_Comm comm, const Scene &scene, const SerialMesh 
   PetscCall(MeasureCost(comm, 0, before));
   {
     const KeptErrors kept; // the run itself is well
-    const auto blocks = serial ? std::vector<MeridianBlock>{} : meridian_blocks(own);
-    SerialMesh mesh = serial                      ? *serial
-                      : own.model == Model::solid ? revolved_mesh(blocks)
-                                                  : serial_mesh(blocks);
-    if (Solve(comm, own, std::move(mesh), wish, companion, stopped) != 0)
+    SerialMesh mesh = serial ? *serial : mesh_of(own.model, meridian_blocks(own));
+    if (Solve(comm, own, std::move(mesh), ask, companion, stopped) != 0)
       companion.failure = kept.text().empty() ? "PETSc failed" : kept.text();
   }
   PetscCall(MeasureCost(comm, 0, after));

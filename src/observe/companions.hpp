@@ -3,8 +3,8 @@
 #pragma once
 
 #include "observe/measure.hpp"
+#include "observe/stop_question.hpp"
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,15 +32,9 @@ std::vector<Companion> mesh_companions(const Scene &scene);
 /// The one that differs in the steps; only where something is integrated.
 std::vector<Companion> time_companions(const Scene &scene);
 
-/// Whether to stop before the end; the same on all ranks. Collective.
-using WishToStop = std::function<PetscErrorCode(MPI_Comm comm, std::string &why)>;
-
-/// Of signals and of a wall time that would be over before it is asked again; `wall_start` as MPI_Wtime [s].
-WishToStop wish_to_stop(double wall_start, double wall_time);
-
 /// Runs it. `serial` is the mesh, on the first rank, where the scene's cylinders are none. What goes wrong is
-/// said in `failure`, and `stopped` if the wish was granted. Collective.
+/// said in `failure`, and `stopped` if the question made it stop. Collective.
 PetscErrorCode RunCompanion(MPI_Comm comm, const Scene &scene, const SerialMesh *serial,
-                            const WishToStop &wish, Companion &companion, bool &stopped);
+                            const StopQuestion &ask, Companion &companion, bool &stopped);
 
 } // namespace tribogel

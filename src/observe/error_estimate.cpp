@@ -76,7 +76,7 @@ void judge(const Scene &scene, const std::vector<PlateLoads> &ends, ErrorEstimat
 }
 
 PetscErrorCode EstimateErrors(MPI_Comm comm, const Scene &scene, const SerialMesh *serial,
-                              const Recorder &run, const WishToStop &wish,
+                              const Recorder &run, const StopQuestion &ask,
                               const std::function<void(const Companion &)> &told, ErrorEstimate &estimate)
 {
   std::string why;
@@ -84,8 +84,8 @@ PetscErrorCode EstimateErrors(MPI_Comm comm, const Scene &scene, const SerialMes
   PetscFunctionBeginUser;
   plan(scene, estimate);
   for (Companion &companion : estimate.companions) {
-    PetscCall(wish(comm, why));
-    if (why.empty()) PetscCall(RunCompanion(comm, scene, serial, wish, companion, stopped));
+    PetscCall(ask(comm, why));
+    if (why.empty()) PetscCall(RunCompanion(comm, scene, serial, ask, companion, stopped));
     if (stopped) why = companion.failure;
     if (!why.empty()) {
       estimate.notes.push_back(why);

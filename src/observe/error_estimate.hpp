@@ -5,6 +5,8 @@
 #include "observe/recorder.hpp"
 #include "tribogel/math/extrapolation.hpp"
 
+#include <functional>
+
 namespace tribogel
 {
 
@@ -23,7 +25,7 @@ struct ErrorEstimate {
 /// Runs the companions of a run that is complete; `serial` as in RunCompanion, null for the scene's
 /// cylinders. `told` hears of each companion that has ended. Collective.
 PetscErrorCode EstimateErrors(MPI_Comm comm, const Scene &scene, const SerialMesh *serial,
-                              const Recorder &run, const WishToStop &wish,
+                              const Recorder &run, const StopQuestion &ask,
                               const std::function<void(const Companion &)> &told, ErrorEstimate &estimate);
 
 /// From what the companions left. `ends`: N and T of the run.

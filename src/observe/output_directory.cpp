@@ -16,7 +16,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-std::string option_text(const OutputParameters &output)
+std::string option_text(const OutputSettings &output)
 {
   return "-output_directory = " + output.directory + ": ";
 }
@@ -38,7 +38,7 @@ void remove_made(fs::path path, const fs::path &existing)
   for (; path != existing && path.has_relative_path(); path = path.parent_path()) fs::remove(path, ignored);
 }
 
-std::string make_directory(const OutputParameters &output)
+std::string make_directory(const OutputSettings &output)
 {
   std::error_code failed, ignored;
   const fs::path existing = nearest_existing(output.directory);
@@ -58,7 +58,7 @@ std::string make_directory(const OutputParameters &output)
 
 } // namespace
 
-std::string objection_to(const OutputParameters &output)
+std::string objection_to(const OutputSettings &output)
 {
   const std::string allowed = "; allowed: a directory that can be made and written";
   std::error_code ignored;
@@ -75,14 +75,14 @@ std::string objection_to(const OutputParameters &output)
   return {};
 }
 
-PetscErrorCode CheckOutputDirectory(MPI_Comm comm, const OutputParameters &output)
+PetscErrorCode CheckOutputDirectory(MPI_Comm comm, const OutputSettings &output)
 {
   PetscFunctionBeginUser;
   PetscCall(OnFirstProcess(comm, [&] { return objection_to(output); }));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PrepareOutputDirectory(MPI_Comm comm, const OutputParameters &output)
+PetscErrorCode PrepareOutputDirectory(MPI_Comm comm, const OutputSettings &output)
 {
   PetscFunctionBeginUser;
   PetscCall(OnFirstProcess(comm, [&] { return make_directory(output); }));

@@ -2,7 +2,7 @@
 /// judged.
 #pragma once
 
-#include "tribogel/scene/scene.hpp"
+#include "support/settings.hpp"
 
 #include <petscsys.h>
 
@@ -15,13 +15,13 @@ inline constexpr const char *run_files[] = {"history.csv",       "profile.csv", 
                                             "checkpoint.h5",     "checkpoint.h5.part"};
 
 /// What speaks against writing a run there, in words; empty if nothing does. Touches nothing.
-std::string objection_to(const OutputParameters &output);
+std::string objection_to(const OutputSettings &output);
 
 /// Throws UserError on all processes if there is an objection. Collective.
-PetscErrorCode CheckOutputDirectory(MPI_Comm comm, const OutputParameters &output);
+PetscErrorCode CheckOutputDirectory(MPI_Comm comm, const OutputSettings &output);
 
 /// Makes the directory and its parents and removes the files of the run it replaces. Collective; throws
 /// UserError on all processes if that fails.
-PetscErrorCode PrepareOutputDirectory(MPI_Comm comm, const OutputParameters &output);
+PetscErrorCode PrepareOutputDirectory(MPI_Comm comm, const OutputSettings &output);
 
 } // namespace tribogel

@@ -1,5 +1,6 @@
 #include "observe/progress.hpp"
 
+#include "observe/columns.hpp"
 #include "support/exit_status.hpp"
 
 #include <unistd.h>
@@ -68,13 +69,18 @@ void Progress::finish(const Recorder &recorder, const SolveCounts &counts, const
                       const RunCost &cost, const std::string &directory) const
 {
   if (!speaks) return;
-  std::printf("\n%5s %10s %12s %12s %14s %12s %13s %13s\n", "phase", "time s", "rate rad/s", "N  N",
-              "T  N mm", "radius mm", "mu apparent", "mu weighted");
+  std::vector<const Column<HistoryRow> *> columns;
+  for (const char *name : {"phase", "time_s", "rate_rad_per_s", "normal_force_N", "torque_Nmm",
+                           "contact_radius_mm", "mu_apparent", "mu_pressure_weighted"})
+    columns.push_back(&history_column(name));
+  std::string table = "\n";
+  for (const auto *column : columns) table += (column == columns[0] ? "" : " ") + console_heading(*column);
   for (const PhaseEnd &end : recorder.phases) {
-    const Measurement &m = end.measurement;
-    std::printf("%5d %10.6g %12.6g %12.7g %14.7g %12.6g %13.6g %13.6g\n", end.phase, end.time, end.rate,
-                m.normal_force, m.torque, m.contact_radius, m.mu_apparent, m.mu_pressure_weighted);
+    table += "\n";
+    for (const auto *column : columns)
+      table += (column == columns[0] ? "" : " ") + console_text(*column, end);
   }
+  std::printf("%s\n", table.c_str());
   std::printf("mu apparent: from T by eq. (3.13) of the paper; mu weighted: of the law, over the contact, by "
               "pressure\n");
   std::printf("\n%d steps (%d rejected, %d failed solves), %d Newton iterations, %.1f CPU s, %.1f s, %.0f MB "
@@ -122,14 +128,19 @@ std::string text_of(const Extrapolation &error)
 void Progress::show(const ErrorEstimate &estimate, const Recorder &recorder) const
 {
   if (!speaks) return;
-  if (!estimate.phases.empty())
-    std::printf("\n%5s %12s %16s %9s %14s %16s %9s\n", "phase", "N  N", "+- mesh (order)", "+- time",
-                "T  N mm", "+- mesh (order)", "+- time");
+  const auto &phase = history_column("phase"), &N = history_column("normal_force_N"),
+             &T = history_column("torque_Nmm");
+  constexpr const char *line = "%s %s %16s %9s %s %16s %9s\n";
+  if (!estimate.phases.empty()) {
+    std::printf("\n");
+    std::printf(line, console_heading(phase).c_str(), console_heading(N).c_str(), "+- mesh (order)",
+                "+- time", console_heading(T).c_str(), "+- mesh (order)", "+- time");
+  }
   for (std::size_t k = 0; k < estimate.phases.size(); ++k) {
     const auto &[force, torque] = estimate.phases[k];
-    const Measurement &m = recorder.phases[k].measurement;
-    std::printf("%5d %12.7g %16s %9s %14.7g %16s %9s\n", recorder.phases[k].phase, m.normal_force,
-                text_of(force.mesh).c_str(), text_of(force.time).c_str(), m.torque,
+    const PhaseEnd &end = recorder.phases[k];
+    std::printf(line, console_text(phase, end).c_str(), console_text(N, end).c_str(),
+                text_of(force.mesh).c_str(), text_of(force.time).c_str(), console_text(T, end).c_str(),
                 text_of(torque.mesh).c_str(), text_of(torque.time).c_str());
   }
   for (const std::string &note : estimate.notes) std::printf("note: error estimate: %s\n", note.c_str());

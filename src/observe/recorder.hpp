@@ -15,22 +15,20 @@
 namespace tribogel
 {
 
-/// What the end of a phase looked like.
-struct PhaseEnd {
-  int phase; ///< counted from 1
-  double time, approach, rotation, rate;
-  Measurement measurement;
-  double centre_displacement,
-      rim_displacement; ///< of the bottom surface, down, at the axis and at the contact radius [mm]
-};
-
-/// One accepted step as the files and the console show it.
+/// One accepted step; columns.hpp says what of it is shown where. A new member is one more column.
 struct HistoryRow {
   double time, approach, rotation, rate, step;
   int phase; ///< counted from 1
   Measurement measurement;
   EnergyBalance energy;
   StepReport report;
+};
+
+/// The last step of a phase, and what is known at such only.
+struct PhaseEnd : HistoryRow {
+  double centre_displacement = undefined,
+         rim_displacement =
+             undefined; ///< of the bottom surface, down, at the axis and at the contact radius [mm]
 };
 
 /// Where the run in `directory` keeps its checkpoint.
@@ -42,13 +40,13 @@ public:
   /// `directory` empty: nothing is written, the numbers are kept only.
   explicit Recorder(std::string where) : directory(std::move(where)) {}
 
-  PetscErrorCode Start(Problem &problem) override;
-  PetscErrorCode Step(Problem &problem, const StepReport &report) override;
-  PetscErrorCode Failed(Problem &problem, const StepFailure &failure) override;
-  PetscErrorCode Notice(Problem &problem, const std::string &text) override;
+  PetscErrorCode Start(const Problem &problem) override;
+  PetscErrorCode Step(const Problem &problem, const StepReport &report) override;
+  PetscErrorCode Failed(const Problem &problem, const StepFailure &failure) override;
+  PetscErrorCode Notice(const Problem &problem, const std::string &text) override;
 
   /// What a complete run has to tell in the end.
-  PetscErrorCode Conclude(Problem &problem);
+  PetscErrorCode Conclude(const Problem &problem);
 
   /// First process: the files' rows so far survive the machine's end; `bytes` is updated. Returns what went
   /// wrong.
@@ -75,8 +73,8 @@ public:
 private:
   std::array<std::string, 2> paths() const;
   std::string open(bool goes_on);
-  PetscErrorCode Record(Problem &problem, const StepReport &report);
-  PetscErrorCode Write(Problem &problem, const std::function<std::string()> &work);
+  PetscErrorCode Record(const Problem &problem, const StepReport &report);
+  PetscErrorCode Write(const Problem &problem, const std::function<std::string()> &work);
   std::string profile_of(const PhaseEnd &end) const;
 
   std::string directory;

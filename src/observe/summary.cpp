@@ -24,29 +24,26 @@ Json number(double x)
   return std::isfinite(x) ? Json(x) : Json(nullptr);
 }
 
+Json json_of(const Cell &cell)
+{
+  if (const auto *count = std::get_if<long>(&cell)) return *count;
+  return number(number_of(cell));
+}
+
 /// The columns of history.csv that are worth it, and what is known at phases' ends only.
-Json describe(const HistoryRow &row, const PhaseEnd &end)
+Json describe(const PhaseEnd &end)
 {
   Json json;
-  for (const Column<HistoryRow> &column : history_columns()) {
-    if (!column.in_summary) continue;
-    const Cell cell = column.value(row);
-    if (const auto *count = std::get_if<long>(&cell))
-      json[column.name] = *count;
-    else
-      json[column.name] = number(std::get<double>(cell));
-  }
-  json["bottom_surface_centre_displacement_mm"] = number(end.centre_displacement);
-  json["bottom_surface_rim_displacement_mm"] = number(end.rim_displacement);
+  for (const Column<HistoryRow> &column : history_columns())
+    if (column.in_summary) json[column.name] = json_of(column.value(end));
+  for (const Column<PhaseEnd> &column : phase_end_columns()) json[column.name] = json_of(column.value(end));
   return json;
 }
 
 Json phase_ends(const Recorder &recorder)
 {
   Json json = Json::array();
-  auto end = recorder.phases.begin();
-  for (const HistoryRow &row : recorder.rows)
-    if (row.report.ends_phase && end != recorder.phases.end()) json.push_back(describe(row, *end++));
+  for (const PhaseEnd &end : recorder.phases) json.push_back(describe(end));
   return json;
 }
 
@@ -62,16 +59,16 @@ Json balances(const Recorder &recorder)
     most_torque = std::max(most_torque, std::abs(row.measurement.torque));
     most_work = std::max(most_work, std::abs(row.energy.work));
   }
-  const EnergyBalance energy = recorder.rows.empty() ? EnergyBalance{} : recorder.rows.back().energy;
-  return {{"max_normal_force_N", most_force},
-          {"max_torque_Nmm", most_torque},
-          {"max_force_mismatch_N", force},
-          {"max_torque_mismatch_Nmm", torque},
-          {"work_of_plates_Nmm", energy.work},
-          {"stored_energy_Nmm", energy.stored},
-          {"viscous_dissipation_Nmm", energy.viscous},
-          {"frictional_dissipation_Nmm", energy.friction},
-          {"energy_residual_relative", number(energy.residual() / most_work)}};
+  const HistoryRow last = recorder.rows.empty() ? HistoryRow{} : recorder.rows.back();
+  Json json{{"max_normal_force_N", most_force},
+            {"max_torque_Nmm", most_torque},
+            {"max_force_mismatch_N", force},
+            {"max_torque_mismatch_Nmm", torque}};
+  for (const char *name :
+       {"work_of_plates_Nmm", "stored_energy_Nmm", "viscous_dissipation_Nmm", "frictional_dissipation_Nmm"})
+    json[name] = json_of(history_column(name).value(last));
+  json["energy_residual_relative"] = number(last.energy.residual() / most_work);
+  return json;
 }
 
 Json describe(const Extrapolation &error)
@@ -122,7 +119,7 @@ Json summary_of(const Problem &problem, const Recorder &recorder, const RunOutco
   json["program"] = {{"name", "tribogel"}, {"version", version}, {"petsc", petsc_version()}};
   json["status"] = outcome.status;
   json["reason"] = outcome.reason;
-  json["time_s"] = problem.state.time;
+  json["time_s"] = problem.stepper.state.time;
   for (const auto &[name, value] : options) json["options"][name] = value;
   json["warnings"] = warnings;
   json["notices"] = recorder.notices;
@@ -134,8 +131,8 @@ Json summary_of(const Problem &problem, const Recorder &recorder, const RunOutco
     most_newton = std::max(most_newton, static_cast<int>(row.report.newton_iterations));
     longest = std::max(longest, row.step);
   }
-  const SolveCounts &counts = problem.counts;
-  json["counts"] = {{"unknowns", problem.mesh.unknowns},
+  const SolveCounts &counts = problem.stepper.counts;
+  json["counts"] = {{"unknowns", problem.system.mesh.unknowns},
                     {"accepted_steps", counts.accepted_steps},
                     {"rejected_steps", counts.rejected_steps},
                     {"failed_solves", counts.failed_solves},

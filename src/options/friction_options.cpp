@@ -1,5 +1,8 @@
+/// Which law of friction, and its parameters as the laws declare them (friction/laws.hpp).
 #include "options/friction_options.hpp"
 
+#include "options/option_groups.hpp"
+#include "options/option_reader.hpp"
 #include "support/parse.hpp"
 #include "tribogel/friction/laws.hpp"
 
@@ -64,6 +67,20 @@ OptionGroup choice_group()
   return group;
 }
 
+/// What concerns any law; then a group for each law.
+std::vector<OptionGroup> declare_friction()
+{
+  std::vector<OptionGroup> groups{choice_group()};
+  for (const KnownLaw &law : known_laws()) {
+    groups.push_back({std::string("-friction_law ") + law.declaration->name + ": " +
+                          law.declaration->formula + " (" + law.declaration->source + ")",
+                      {}});
+    for (const LawParameter &parameter : law.declaration->parameters)
+      groups.back().options.push_back(option_of(*law.declaration, parameter));
+  }
+  return groups;
+}
+
 /// -friction_speed_range, if it is given.
 std::optional<std::array<double, 2>> read_speed_range(const OptionReader &reader)
 {
@@ -110,7 +127,7 @@ void expect_possible(const OptionReader &reader, const LawDeclaration &law, cons
 void note_idle(const OptionReader &reader, const std::string &chosen, SceneInput &input)
 {
   std::string idle;
-  for (const OptionGroup &group : friction_groups())
+  for (const OptionGroup &group : declare_friction())
     for (const Option &option : group.options) {
       const bool is_idle = is_of_another_law(option.name, chosen) ||
                            (chosen == none && option.name == "-friction_speed_range") ||
@@ -158,6 +175,28 @@ std::array<std::string, 2> columns_of(const std::string &path)
   return columns;
 }
 
+void read_friction(const OptionReader &reader, SceneInput &input)
+{
+  const std::string chosen = reader.choice("-friction_law");
+  const auto speeds = read_speed_range(reader);
+  for (const KnownLaw &law : known_laws()) {
+    const bool is_chosen = law.declaration->name == chosen;
+    const LawValues values = read_values(reader, *law.declaration, is_chosen && input.scene.has_contact());
+    const bool complete = std::none_of(values.begin(), values.end(), [](const auto &v) { return v.empty(); });
+    if (complete) expect_possible(reader, *law.declaration, values);
+    if (!is_chosen || !input.scene.has_contact()) continue;
+    input.scene.friction = law.make(values);
+    input.scene.friction_speeds = speeds;
+    note_idle_floor(reader, *law.declaration, input);
+    if (input.scene.friction.law()->may_fall())
+      input.notes.push_back(
+          "-friction_law = " + chosen +
+          ": friction that weakens with speed has unstable sliding states; see whether mu(v) of "
+          "these numbers becomes negative at high speed");
+  }
+  if (input.scene.has_contact()) note_idle(reader, chosen, input);
+}
+
 } // namespace
 
 GivenOptions with_friction_table(const GivenOptions &given)
@@ -186,39 +225,9 @@ bool is_of_another_law(const std::string &option, const std::string &chosen)
   return false;
 }
 
-std::vector<OptionGroup> friction_groups()
+OptionSubject friction_options()
 {
-  std::vector<OptionGroup> groups{choice_group()};
-  for (const KnownLaw &law : known_laws()) {
-    groups.push_back({std::string("-friction_law ") + law.declaration->name + ": " +
-                          law.declaration->formula + " (" + law.declaration->source + ")",
-                      {}});
-    for (const LawParameter &parameter : law.declaration->parameters)
-      groups.back().options.push_back(option_of(*law.declaration, parameter));
-  }
-  return groups;
-}
-
-void read_friction(const OptionReader &reader, SceneInput &input)
-{
-  const std::string chosen = reader.choice("-friction_law");
-  const auto speeds = read_speed_range(reader);
-  for (const KnownLaw &law : known_laws()) {
-    const bool is_chosen = law.declaration->name == chosen;
-    const LawValues values = read_values(reader, *law.declaration, is_chosen && input.scene.has_contact());
-    const bool complete = std::none_of(values.begin(), values.end(), [](const auto &v) { return v.empty(); });
-    if (complete) expect_possible(reader, *law.declaration, values);
-    if (!is_chosen || !input.scene.has_contact()) continue;
-    input.scene.friction = law.make(values);
-    input.scene.friction_speeds = speeds;
-    note_idle_floor(reader, *law.declaration, input);
-    if (input.scene.friction.law()->may_fall())
-      input.notes.push_back(
-          "-friction_law = " + chosen +
-          ": friction that weakens with speed has unstable sliding states; see whether mu(v) of "
-          "these numbers becomes negative at high speed");
-  }
-  if (input.scene.has_contact()) note_idle(reader, chosen, input);
+  return {declare_friction, read_friction};
 }
 
 } // namespace tribogel

@@ -1,5 +1,5 @@
-/// Every option of tribogel, declared once: the reader, -help, options/README.md and the search for misspelt
-/// names all use this table. Nothing here knows PETSc.
+/// Every option of tribogel, declared once, by its group (option_groups.hpp): the reader, -help,
+/// options/README.md and the search for misspelt names all use this table. Nothing here knows PETSc.
 #pragma once
 
 #include <limits>
@@ -56,16 +56,5 @@ std::vector<std::string> option_names();
 
 /// The entry of that name, or null.
 const Option *find_option(const std::string &name);
-
-/// The names of the four options of one Maxwell branch: moduli, exponents, bulk modulus, viscosities. `body`
-/// is "top" or "bottom"; branches count from 1, and the first has no number in its names.
-struct BranchNames {
-  std::string moduli, exponents, bulk_modulus, viscosities;
-  std::vector<std::string> all() const { return {moduli, exponents, bulk_modulus, viscosities}; }
-};
-BranchNames branch_names(const std::string &body, int branch);
-
-/// The declarations of a branch beyond the first: those of the first one without defaults.
-std::vector<Option> further_branch_options(const std::string &body, int branch);
 
 } // namespace tribogel

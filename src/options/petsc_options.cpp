@@ -1,5 +1,6 @@
 #include "options/petsc_options.hpp"
 
+#include "options/material_options.hpp"
 #include "options/nearest_name.hpp"
 #include "options/option_table.hpp"
 #include "options/petsc_limits.hpp"

@@ -112,7 +112,7 @@ std::string describe_time(const Scene &scene)
   return text + "\n";
 }
 
-std::string describe(const OutputParameters &output)
+std::string describe(const OutputSettings &output)
 {
   std::string text =
       std::string(output.restart ? "  continues the run in " : "  output in ") + output.directory;
@@ -143,7 +143,7 @@ std::string scene_report(const SceneInput &input)
   if (scene.has_bottom()) text += describe(scene.bottom, "bottom", from_file);
   if (scene.has_contact()) text += describe_friction(scene);
   text += describe(scene.schedule, scene.upper_gel().radius);
-  text += describe_mesh(scene, input.mesh_file) + describe_time(scene) + describe(scene.output);
+  text += describe_mesh(scene, input.mesh_file) + describe_time(scene) + describe(input.output);
   for (const std::string &warning : input.warnings) text += "warning: " + warning + "\n";
   for (const std::string &note : input.notes) text += "note: " + note + "\n";
   return text;

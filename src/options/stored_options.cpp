@@ -115,7 +115,7 @@ void expect_unchanged(const SceneInput &input, const std::string &stored)
     const auto now = input.given.find(name);
     const std::string *then = find(given, name);
     if (now == input.given.end() || (then && *then == now->second)) continue; // follows from what was given
-    throw UserError{name + " = " + text + ": the run in " + input.scene.output.directory + " has " +
+    throw UserError{name + " = " + text + ": the run in " + input.output.directory + " has " +
                     (before ? *before : "none") + "; allowed: to continue it, " +
                     (before ? "the same or nothing" : "nothing")};
   }

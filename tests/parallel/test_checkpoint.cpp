@@ -41,10 +41,10 @@ Friction rate_and_state()
 class Stop : public Observer
 {
 public:
-  PetscErrorCode Start(Problem &) override { return 0; }
-  PetscErrorCode Step(Problem &problem, const StepReport &) override
+  PetscErrorCode Start(const Problem &) override { return 0; }
+  PetscErrorCode Step(const Problem &problem, const StepReport &) override
   {
-    if (problem.state.time > stop_time) problem.stop_request = "enough";
+    if (problem.stepper.state.time > stop_time) stop.request("enough");
     return 0;
   }
 };
@@ -88,15 +88,15 @@ struct StoppedRun {
     EXPECT_EQ(problem.Run({&recorder, &stop}, completed, why), 0);
     EXPECT_FALSE(completed);
     EXPECT_EQ(why, "enough");
-    EXPECT_EQ(problem.state.phase, 1);
-    EXPECT_GE(problem.state.steps_in_phase, 2);
-    EXPECT_LT(problem.state.time, problem.phase().end_time);
+    EXPECT_EQ(problem.stepper.state.phase, 1);
+    EXPECT_GE(problem.stepper.state.steps_in_phase, 2);
+    EXPECT_LT(problem.stepper.state.time, problem.stepper.phase().end_time);
     EXPECT_EQ(checkpoint.Write(problem), 0);
   }
-  static OutputParameters output(const std::string &directory)
+  static OutputSettings output(const std::string &directory)
   {
     std::filesystem::create_directories(directory);
-    OutputParameters parameters;
+    OutputSettings parameters;
     parameters.directory = directory;
     return parameters;
   }
@@ -208,19 +208,21 @@ TEST_P(checkpoint_ranks, GoesOnAsItWasOnTheSameRanks)
 {
   StoppedRun stopped(PETSC_COMM_WORLD, scene, directory.path / "stopped");
   ContinuedRun continued(PETSC_COMM_WORLD, scene, directory.path / "stopped", directory.path / "goes_on");
-  expect_same_state(continued.problem.state, stopped.problem.state);
+  expect_same_state(continued.problem.stepper.state, stopped.problem.stepper.state);
   for (double State::*share : {&State::stored, &State::dissipated}) {
-    const double all = sum_over(PETSC_COMM_WORLD, stopped.problem.state.*share);
+    const double all = sum_over(PETSC_COMM_WORLD, stopped.problem.stepper.state.*share);
     EXPECT_GT(all, 0);
-    EXPECT_EQ(sum_over(PETSC_COMM_WORLD, continued.problem.state.*share), all);
+    EXPECT_EQ(sum_over(PETSC_COMM_WORLD, continued.problem.stepper.state.*share), all);
   }
-  EXPECT_EQ(continued.problem.counts.newton_iterations, stopped.problem.counts.newton_iterations);
+  EXPECT_EQ(continued.problem.stepper.counts.newton_iterations,
+            stopped.problem.stepper.counts.newton_iterations);
   continued.finish();
   int size;
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   expect_same_rows(continued.recorder.rows, whole.rows, R, size == 1 ? 0 : 1e-12);
-  EXPECT_EQ(continued.problem.counts.accepted_steps, uninterrupted.counts.accepted_steps);
-  EXPECT_EQ(continued.problem.counts.newton_iterations, uninterrupted.counts.newton_iterations);
+  EXPECT_EQ(continued.problem.stepper.counts.accepted_steps, uninterrupted.stepper.counts.accepted_steps);
+  EXPECT_EQ(continued.problem.stepper.counts.newton_iterations,
+            uninterrupted.stepper.counts.newton_iterations);
   ASSERT_EQ(continued.recorder.phases.size(), whole.phases.size());
   for (std::size_t k = 0; k < whole.phases.size(); ++k)
     EXPECT_EQ(continued.recorder.phases[k].time, whole.phases[k].time);

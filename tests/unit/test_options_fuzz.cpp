@@ -1,5 +1,6 @@
 /// 20,000 sets of options, right ones and spoiled ones: each is either refused with one line that names an
 /// option and what is allowed, or gives a scene that makes sense.
+#include "options/discretisation_options.hpp"
 #include "options/option_table.hpp"
 #include "options/scene_input.hpp"
 

@@ -1,5 +1,5 @@
 /// What is told of the sizes and faces of specimens before a run; by hand.
-#include "options/scene_input.hpp"
+#include "options/sizes.hpp"
 
 #include <gtest/gtest.h>
 

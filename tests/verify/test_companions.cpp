@@ -19,7 +19,7 @@ Scene short_scene(int elements, int order)
   return scene;
 }
 
-const WishToStop never = [](MPI_Comm, std::string &) -> PetscErrorCode { return 0; };
+const StopQuestion never = [](MPI_Comm, std::string &) -> PetscErrorCode { return 0; };
 
 } // namespace
 
@@ -40,8 +40,8 @@ TEST(companions, ThatDifferInNothingGiveTheNumbersOfTheRun)
     EXPECT_EQ(same.ends[k][0], recorder.phases[k].measurement.normal_force);
     EXPECT_EQ(same.ends[k][1], recorder.phases[k].measurement.torque);
   }
-  EXPECT_EQ(same.unknowns, problem.mesh.unknowns);
-  EXPECT_EQ(same.steps, problem.counts.accepted_steps);
+  EXPECT_EQ(same.unknowns, problem.system.mesh.unknowns);
+  EXPECT_EQ(same.steps, problem.stepper.counts.accepted_steps);
 }
 
 TEST(companions, WithALargerToleranceTakeLongerSteps)
@@ -82,7 +82,7 @@ TEST(companions, AreStoppedOnRequest)
 {
   const Scene scene = short_scene(4, 1);
   int asked = 0;
-  const WishToStop soon = [&asked](MPI_Comm, std::string &why) -> PetscErrorCode {
+  const StopQuestion soon = [&asked](MPI_Comm, std::string &why) -> PetscErrorCode {
     if (++asked == 5) why = "enough";
     return 0;
   };

@@ -1,104 +1,22 @@
 #!/usr/bin/python3
 """A run that was killed at any moment, or asked to stop, goes on with -restart and ends with the history of
-the run that was left alone: no row lost, none doubled, N and T within 1e-10 of their largest values. What is
-no checkpoint, or another scene, is refused in one line and nothing is changed.
+the run that was left alone: no row lost, none doubled, N and T within 1e-10 of their largest values.
 
   test_restart.py TRIBOGEL --mpirun MPIRUN [--kills N] [--seed S] [unittest's arguments]
 
 --kills: how many times a run on 2 ranks is killed; 20 make the study of
 tests/measurements/restarts.md, to which the table printed at the end belongs.
 """
-import argparse
-import csv
 import os
-import pathlib
 import random
 import shutil
 import signal
-import subprocess
 import sys
-import tempfile
 import time
-import unittest
 
-REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
-SCENE = ["-options_file", str(REPOSITORY / "options" / "quick.opts")]
-# Few steps, two phases, slip.
-SHORT = ["-element_order", "1", "-elements_radial", "3", "-mesh_grading", "2", "-schedule_end_times", "9,30",
-         "-schedule_approach", "0.3,0.3", "-schedule_rates", "0,0.1", "-ts_adapt_type", "none", "-ts_dt", "3"]
-TOLERANCE = 1e-10  # of the largest |N| and |T|
-ARGUMENTS = None
-
-
-def command(ranks):
-    """The program, by itself or on several ranks; -q spares the launcher's remarks on exit statuses."""
-    return ([ARGUMENTS.mpirun, "-q", "-n", str(ranks)] if ranks > 1 else []) + [ARGUMENTS.tribogel,
-                                                                                "-skip_petscrc"]
-
-
-def run(ranks, words, folder, status=0):
-    done = subprocess.run(command(ranks) + words, cwd=folder, capture_output=True, text=True, timeout=300,
-                          check=False)
-    if done.returncode != status:
-        raise AssertionError(f"status {done.returncode}, not {status}: {words}\n{done.stdout}\n{done.stderr}")
-    return done
-
-
-def table(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
-def differences(directory, reference):
-    """Largest differences of N and T, relative to their largest values, of two complete histories."""
-    rows, expected = table(directory / "history.csv"), table(reference / "history.csv")
-    if [row["phase"] for row in rows] != [row["phase"] for row in expected]:
-        raise AssertionError(f"{len(rows)} rows for {len(expected)}, or other phases")
-    times = [float(row["time_s"]) for row in rows]
-    if any(late <= early for early, late in zip(times, times[1:])):
-        raise AssertionError("times do not increase")
-    profile, expected_profile = table(directory / "profile.csv"), table(reference / "profile.csv")
-    for column in ("phase", "surface", "reference_r_mm", "status"):
-        if [row[column] for row in profile] != [row[column] for row in expected_profile]:
-            raise AssertionError(f"profile.csv differs in {column}")
-    found = []
-    for column in ("normal_force_N", "torque_Nmm"):
-        pairs = [(float(row[column]), float(other[column])) for row, other in zip(rows, expected)]
-        found.append(max(abs(a - b) for a, b in pairs) / max(abs(b) for _, b in pairs))
-    return found
-
-
-def contents(directory):
-    return {path.name: path.read_bytes() for path in directory.iterdir()}
-
-
-def ranks_of(launcher):
-    """Process numbers of the ranks below mpirun."""
-    children = pathlib.Path(f"/proc/{launcher}/task/{launcher}/children").read_text().split()
-    name = pathlib.Path(ARGUMENTS.tribogel).name
-    return [int(child) for child in children
-            if pathlib.Path(f"/proc/{child}/comm").read_text().strip() == name]
-
-
-class Folder(unittest.TestCase):
-    def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
-
-    def assert_same(self, directory, reference):
-        for difference in differences(self.folder / directory, self.folder / reference):
-            self.assertLessEqual(difference, TOLERANCE)
-
-    def start(self, ranks, words):
-        program = subprocess.Popen(command(ranks) + words, cwd=self.folder, stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.DEVNULL)
-        self.addCleanup(lambda: program.poll() is None and program.terminate())
-        return program
-
-    def copy(self, old, new):
-        shutil.copytree(self.folder / old, self.folder / new)
-        return new
+sys.dont_write_bytecode = True
+import restarts  # noqa: E402
+from restarts import SCENE, SHORT, TOLERANCE, Folder, differences, ranks_of, run, table  # noqa: E402
 
 
 class Killed(Folder):
@@ -128,12 +46,12 @@ class Killed(Folder):
             longest = delay
 
     def test_at_random_moments(self):
-        random.seed(ARGUMENTS.seed)
+        random.seed(restarts.ARGUMENTS.seed)
         begin = time.monotonic()
         run(2, SCENE + ["-output_directory", "whole"], self.folder)
         duration = time.monotonic() - begin
         print(f"\n{'killed after':>12} {'checkpoints':>11} {'rows':>5}   dN, dT restarted on 1, 2, 3 ranks")
-        for number in range(ARGUMENTS.kills):
+        for number in range(restarts.ARGUMENTS.kills):
             every = ("0", "0.1", "600")[number % 3]
             name = f"killed{number}"
             delay = self.kill(name, every, duration, number % 2 == 0)
@@ -234,138 +152,5 @@ class Stopped(Folder):
         self.assert_same("run", "whole")
 
 
-class Refused(Folder):
-    def setUp(self):
-        super().setUp()
-        run(1, SHORT + ["-output_directory", "run", "-wall_time", "1e-6"], self.folder, 4)
-
-    def refuses(self, words, *parts, ranks=1):
-        before = contents(self.folder / "run")
-        done = run(ranks, words, self.folder, 2)
-        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
-        self.assertTrue(done.stderr.startswith("tribogel: error: "), done.stderr)
-        for part in parts + ("allowed: ",):
-            self.assertIn(part, done.stderr)
-        self.assertEqual(contents(self.folder / "run"), before)
-
-    def test_what_is_no_checkpoint(self):
-        self.refuses(["-restart", "nowhere"], "-restart = nowhere", "does not exist")
-        self.refuses(["-restart"], "-restart", "value missing")
-        path = self.folder / "run" / "checkpoint.h5"
-        whole = path.read_bytes()
-        path.write_bytes(whole[:len(whole) // 2])
-        for ranks in (1, 2):
-            self.refuses(["-restart", "run"], "-restart = run", "no whole HDF5 file", ranks=ranks)
-        path.write_text("not HDF5\n")
-        self.refuses(["-restart", "run"], "no whole HDF5 file")
-        import h5py
-        with h5py.File(path, "w") as file:
-            file["U"] = [1.0, 2.0]
-        self.refuses(["-restart", "run"], "is no checkpoint of tribogel")
-
-    def test_another_scene(self):
-        for name, value, stored in (("-top_height", "4.5", "4.4"),
-                                    ("-friction_coefficients", "0,1e-3", "0,8e-4"),
-                                    ("-element_order", "2", "1"), ("-schedule_rates", "0,0.2", "0,0.1"),
-                                    ("-plate_contact", "false", "true")):
-            self.refuses(["-restart", "run", name, value], f"{name} = {value}", f"run has {stored}")
-        self.refuses(["-restart", "run", "-schedule_twists", "0,2"],
-                     "-schedule_twists = 0,2: the run in run has none")
-        self.refuses(["-restart", "run", "-overwrite"], "-overwrite")
-        self.refuses(["-restart", "run", "-output_directory", "other"], "-output_directory = other")
-        self.refuses(SHORT + ["-output_directory", "run"], "-output_directory = run", "holds a run")
-
-    def test_files_that_have_lost_rows(self):
-        path = self.folder / "run" / "history.csv"
-        path.write_bytes(path.read_bytes()[:-10])
-        self.refuses(["-restart", "run"], "history.csv is shorter")
-
-    def test_files_of_other_columns(self):
-        path = self.folder / "run" / "profile.csv"
-        path.write_text(path.read_text().replace("mu,status", "status,mu", 1))
-        self.refuses(["-restart", "run"], "profile.csv has other columns")
-
-    def test_but_not_the_same_scene_again_nor_another_solver(self):
-        words = SHORT + ["-top_height", "4.40", "-output_directory", "run/", "-snes_rtol", "1e-9",
-                         "-wall_time", "1e3"]
-        run(1, words + ["-restart", "run"], self.folder)
-        self.assertIn('"snes_rtol": "1e-9"', (self.folder / "run" / "summary.json").read_text())
-
-
-class MeshFile(Folder):
-    """The mesh of the file goes with the run, under whatever path."""
-    BRIEF = ["-model", "solid", "-element_order", "1", "-plate_contact", "false", "-top_material",
-             "hyperelastic", "-bottom_material", "hyperelastic", "-friction_coefficients", "0.1",
-             "-friction_exponents", "0", "-schedule_end_times", "1", "-schedule_approach", "0.1",
-             "-schedule_rates", "0", "-ts_adapt_type", "none", "-ts_dt", "0.5"]
-
-    def setUp(self):
-        super().setUp()
-        made = subprocess.run([REPOSITORY / "tools" / "specimen-mesh", "square", "--elements", "1",
-                               "--bottom-radius", "14"],
-                              capture_output=True, text=True, check=True)
-        self.first = made.stdout
-        for name in ("start", "elsewhere"):
-            (self.folder / name).mkdir()
-        (self.folder / "start" / "mesh.msh").write_text(self.first)
-        run(1, self.BRIEF + ["-mesh_file", "mesh.msh", "-output_directory", "../run", "-wall_time", "1e-6"],
-            self.folder / "start", 4)
-
-    def moved(self, node, z):
-        """The mesh with a node at another height."""
-        head, tail = self.first.split("$Nodes\n")
-        old = next(line for line in tail.splitlines() if line.startswith(f"{node} "))
-        return head + "$Nodes\n" + tail.replace(old, " ".join(old.split()[:3] + [z]), 1)
-
-    def reversed(self):
-        """The mesh with its elements in the opposite order."""
-        head, tail = self.first.split("$Elements\n")
-        count, *elements, end = tail.splitlines()
-        return "\n".join([head + "$Elements", count] + elements[::-1] + [end]) + "\n"
-
-    def refuses(self, ranks, words, *parts):
-        before = contents(self.folder / "run")
-        done = run(ranks, words, self.folder, 2)
-        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
-        self.assertTrue(done.stderr.startswith("tribogel: error: -mesh_file = "), done.stderr)
-        for part in parts + ("allowed: ",):
-            self.assertIn(part, done.stderr)
-        self.assertEqual(contents(self.folder / "run"), before)
-
-    def test_another_mesh_is_refused(self):
-        path = self.folder / "start" / "mesh.msh"
-        for ranks, text in ((1, self.moved(14, "-1.9")), (2, self.reversed()), (1, self.moved(19, "-0.5"))):
-            path.write_text(text)
-            self.refuses(ranks, ["-restart", "run"], "mesh.msh: the mesh is not that of the run in run",
-                         "the same mesh")
-        path.unlink()
-        self.refuses(1, ["-restart", "run"], "mesh.msh: does not exist", "-mesh_file with the path")
-        self.refuses(1, ["-restart", "run", "-mesh_file", "mesh.msh"],
-                     "-mesh_file = mesh.msh: does not exist")
-
-    def test_the_same_mesh_is_taken(self):
-        run(2, ["-restart", "../run", "-wall_time", "1e3"], self.folder / "elsewhere")
-        shutil.rmtree(self.folder / "run")
-        run(1, self.BRIEF
-            + ["-mesh_file", "start/mesh.msh", "-output_directory", "run", "-wall_time", "1e-6"],
-            self.folder, 4)
-        (self.folder / "start" / "mesh.msh").rename(self.folder / "elsewhere" / "gel.msh")
-        run(1, ["-restart", "../run", "-mesh_file", "gel.msh", "-wall_time", "1e3"],
-            self.folder / "elsewhere")
-
-
-def main():
-    global ARGUMENTS
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("tribogel", type=lambda path: str(pathlib.Path(path).resolve()))
-    parser.add_argument("--mpirun", required=True)
-    parser.add_argument("--kills", type=int, default=3)
-    parser.add_argument("--seed", type=int, default=20)
-    ARGUMENTS, rest = parser.parse_known_args()
-    os.environ.pop("PETSC_OPTIONS", None)
-    unittest.main(argv=sys.argv[:1] + rest)
-
-
 if __name__ == "__main__":
-    main()
+    restarts.main(__doc__, kills=3, seed=20)

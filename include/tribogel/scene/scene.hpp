@@ -1,5 +1,5 @@
-/// What is simulated: a plain value, built from options by the program and by hand in tests. Units mm, N, s,
-/// MPa, rad. The defaults are the paper's rheometer as src/PAPER.md reads it.
+/// What is simulated, and how it is discretised: a plain value, built from options by the program and by hand
+/// in tests. Units mm, N, s, MPa, rad. The defaults are the paper's rheometer as src/PAPER.md reads it.
 #pragma once
 
 #include "tribogel/friction/friction.hpp"
@@ -10,7 +10,6 @@
 #include <array>
 #include <limits>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace tribogel
@@ -83,15 +82,6 @@ struct TimeParameters {
       0.1; ///< of the errors that the step control keeps, per cent of the largest values so far
 };
 
-struct OutputParameters {
-  std::string directory = "tribogel-output";
-  bool overwrite = false;
-  bool restart = false;          ///< the directory holds a run that goes on
-  bool error_estimate = false;   ///< of N and T at the phases' ends, by further runs
-  double checkpoint_every = 600; ///< wall time between checkpoints [s]
-  double wall_time = std::numeric_limits<double>::infinity(); ///< that the program may take [s]
-};
-
 /// What stands between the plates. The bottom plate, or the bottom gel's undeformed face, is at z = 0.
 enum class Arrangement {
   gel_on_gel,   ///< two gels in contact, each bonded to its plate
@@ -123,7 +113,6 @@ struct Scene {
   double bottom_plate_rate = 0;   ///< co-rotation of the bottom plate [rad/s]; no option, 0 but in tests
   MeshParameters mesh;
   TimeParameters time;
-  OutputParameters output;
 
   bool has_top() const { return arrangement != Arrangement::single_gel; }
   bool has_bottom() const { return arrangement != Arrangement::gel_on_rigid; }
