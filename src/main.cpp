@@ -94,7 +94,7 @@ PetscErrorCode RefuseImpossibleStart(Problem &problem, SceneInput &input)
   const auto &offset = input.scene.misalignment.offset;
   const bool shifted = offset[0] != 0 || offset[1] != 0;
   if (!shifted && input.mesh_file.empty()) PetscFunctionReturn(0);
-  PetscCall(problem.JudgeStart(objection, doubts));
+  PetscCall(problem.system.JudgeStart(problem.stepper.plates(0, 0), objection, doubts));
   const std::string option =
       shifted ? "-top_offset = " + input.given.at("-top_offset") : "-mesh_file = " + input.mesh_file;
   const std::string room = to_text(input.scene.bottom.radius - input.scene.top.radius);
@@ -110,7 +110,7 @@ PetscErrorCode RefuseImpossibleStart(Problem &problem, SceneInput &input)
 int status_of(const Problem &problem, bool completed)
 {
   if (completed) return exit_status::completed;
-  return problem.stop.is_request() ? exit_status::stopped_on_request : exit_status::cannot_go_on;
+  return problem.stepper.stop.is_request() ? exit_status::stopped_on_request : exit_status::cannot_go_on;
 }
 
 /// What a run is made of before it begins.
@@ -148,7 +148,7 @@ PetscErrorCode Prepare(MPI_Comm comm, HelpRequest help, const OptionSources &sou
                        from_file ? "-mesh_file = " + input.mesh_file : "-restart = " + run.old_directory));
   }
   PetscCall(run.problem.SetUp(comm, input.scene, std::move(mesh)));
-  PetscCall(run.problem.ProbeSolver());
+  PetscCall(run.problem.stepper.ProbeSolver());
   PetscCall(RefuseImpossibleStart(run.problem, input));
   PetscFunctionReturn(0);
 }
@@ -191,7 +191,9 @@ PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
   if (completed) PetscCall(recorder.Conclude(problem));
   if (outcome.status == exit_status::cannot_go_on) {
     PetscCall(checkpoint.Write(problem));
-    outcome.reason = problem.stop.reason();
+    StopWish all = problem.stepper.stop;
+    all.add(checkpoint.stop);
+    outcome.reason = all.reason();
   }
   PetscCall(checkpoint.Cost(comm, cost));
   const auto write = [&](const ErrorEstimate *estimate) -> PetscErrorCode {
@@ -206,7 +208,7 @@ PetscErrorCode Run(HelpRequest help, const OptionSources &sources, int &status)
     PetscFunctionReturn(0);
   };
   PetscCall(write(nullptr));
-  progress.finish(recorder, problem.counts, outcome, cost, directory);
+  progress.finish(recorder, problem.stepper.counts, outcome, cost, directory);
   PetscCall(ReportErrors(comm, input, prepared.from_file, start, recorder,
                          outcome.status == exit_status::completed, progress, write));
   status = outcome.status;

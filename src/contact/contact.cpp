@@ -94,25 +94,57 @@ void Contact::BeginAttempt()
   for (GelOnGel &gel : gels) gel.BeginAttempt();
 }
 
-PetscErrorCode Contact::AddResidual(const PlateFrames &frames, const double *U, const double *Udot, double *F,
-                                    double *magnitude, std::string &failure)
+PetscErrorCode Contact::AddResidual(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                                    const double *Udot, double *F, double *magnitude, std::string &failure)
 {
+  std::size_t node = 0;
   PetscFunctionBeginUser;
   for (GelOnGel &gel : gels) gel.failed_at.reset();
-  for (GelOnGel &gel : gels)
-    if (failure.empty()) PetscCall(gel.AddResidual(frames, U, Udot, F, magnitude, failure));
+  for (GelOnGel &gel : gels) {
+    const FrictionMemory own = memory.part(node, gel.slave_nodes());
+    if (failure.empty()) PetscCall(gel.AddResidual(frames, own, U, Udot, F, magnitude, failure));
+    node += gel.slave_nodes();
+  }
   for (const WallOnPlate &plate : plates) plate.AddResidual(frames, U, F, magnitude);
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Contact::AddJacobian(const PlateFrames &frames, const double *U, const double *Udot,
-                                    double shift, Mat A, std::string &failure)
+PetscErrorCode Contact::AddJacobian(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                                    const double *Udot, double shift, Mat A, std::string &failure)
 {
+  std::size_t node = 0;
   PetscFunctionBeginUser;
   for (GelOnGel &gel : gels) gel.failed_at.reset();
-  for (GelOnGel &gel : gels)
-    if (failure.empty()) PetscCall(gel.AddJacobian(frames, U, Udot, shift, A, failure));
+  for (GelOnGel &gel : gels) {
+    const FrictionMemory own = memory.part(node, gel.slave_nodes());
+    if (failure.empty()) PetscCall(gel.AddJacobian(frames, own, U, Udot, shift, A, failure));
+    node += gel.slave_nodes();
+  }
   for (const WallOnPlate &plate : plates) PetscCall(plate.AddJacobian(frames, U, A));
+  PetscFunctionReturn(0);
+}
+
+FrictionHistory Contact::InitialHistory() const
+{
+  FrictionHistory history;
+  if (!friction.has_memory()) return history;
+  std::size_t nodes = 0;
+  for (const GelOnGel &gel : gels) nodes += gel.slave_nodes();
+  history.values.assign(nodes, friction.law()->initial_memory());
+  return history;
+}
+
+PetscErrorCode Contact::Advance(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                                const double *Udot, FrictionHistory &next)
+{
+  std::size_t node = 0;
+  PetscFunctionBeginUser;
+  next.values.resize(memory.start.size());
+  for (GelOnGel &gel : gels) {
+    const std::span<double> own = std::span(next.values).subspan(node, gel.slave_nodes());
+    PetscCall(gel.Advance(frames, memory.part(node, gel.slave_nodes()), U, Udot, own));
+    node += gel.slave_nodes();
+  }
   PetscFunctionReturn(0);
 }
 
@@ -150,14 +182,17 @@ Wrench Contact::WallReaction(const double *U) const
 }
 
 PetscErrorCode Contact::Results(const PlateFrames &frames, const double *U, const double *Udot,
-                                ContactResults &results)
+                                ContactResults &results, const FrictionMemory &memory)
 {
+  std::size_t node = 0;
   PetscFunctionBeginUser;
   results = {};
   for (GelOnGel &gel : gels) {
     SurfaceResults surface;
     double force, torque;
-    PetscCall(gel.Results(frames, U, Udot, surface, force, torque));
+    const FrictionMemory own = memory.part(node, gel.slave_nodes());
+    PetscCall(gel.Results(frames, own, U, Udot, surface, force, torque));
+    node += gel.slave_nodes();
     results.force += force;
     results.torque += torque;
     results.surfaces.push_back(std::move(surface));

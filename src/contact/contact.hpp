@@ -28,12 +28,19 @@ public:
 
   /// Contact forces and conditions are added to the local array `F` (at nodes that this rank owns) and their
   /// absolute parts to `magnitude`. On failure `failure` says why, on every rank. Collective.
-  PetscErrorCode AddResidual(const PlateFrames &frames, const double *U, const double *Udot, double *F,
-                             double *magnitude, std::string &failure);
+  PetscErrorCode AddResidual(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                             const double *Udot, double *F, double *magnitude, std::string &failure);
 
   /// dF/dU + shift dF/dUdot, into `A`. Collective.
-  PetscErrorCode AddJacobian(const PlateFrames &frames, const double *U, const double *Udot, double shift,
-                             Mat A, std::string &failure);
+  PetscErrorCode AddJacobian(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                             const double *Udot, double shift, Mat A, std::string &failure);
+
+  /// What friction remembers of contacts that have just been made; empty for a law without memory.
+  FrictionHistory InitialHistory() const;
+
+  /// What it remembers after a solve that ended at U. Collective.
+  PetscErrorCode Advance(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                         const double *Udot, FrictionHistory &next);
 
   /// Where undeformed gels stand so: the share of the top one's face that hangs over the edge of the bottom
   /// one's, or why they cannot. Collective.
@@ -51,7 +58,7 @@ public:
   void AddRoundOff(double *magnitude) const;
 
   PetscErrorCode Results(const PlateFrames &frames, const double *U, const double *Udot,
-                         ContactResults &results);
+                         ContactResults &results, const FrictionMemory &memory = {});
 
   /// What the top plate does to this rank's wall nodes.
   Wrench WallReaction(const double *U) const;
@@ -70,6 +77,7 @@ public:
 
 private:
   MPI_Comm comm = MPI_COMM_NULL;
+  Friction friction;
   std::vector<GelOnGel> gels;
   std::vector<WallOnPlate> plates;
 };

@@ -138,6 +138,11 @@ void ContactOperator::pattern(const Pairs &pairs, int first, int last, const Emi
     if (is->carries[a]) emit(unknowns_of(a, curve.pattern(a, pairs)));
 }
 
+const Friction &ContactOperator::friction() const
+{
+  return is->friction;
+}
+
 const SlaveNode &ContactOperator::constants(int a) const
 {
   return std::visit([&](const auto &contact) -> const SlaveNode & { return contact.constants(a); },

@@ -45,6 +45,7 @@ public:
   void jacobian(int first, int last, const Emit &emit) const;
   void pattern(const Pairs &pairs, int first, int last, const Emit &emit) const;
 
+  const Friction &friction() const;
   const SlaveNode &constants(int a) const;
   double slave_size() const; ///< undeformed [mm or mm^2]
   double facet_size() const; ///< mean [mm]

@@ -127,7 +127,7 @@ PetscErrorCode GelOnGel::AtRest(const PlateFrames &frames, double &share, std::s
 }
 
 PetscErrorCode GelOnGel::Gather(const PlateFrames &frames, const double *U, const double *Udot, double shift,
-                                ContactState<double> &state) const
+                                ContactState<double> &state, const FrictionMemory &memory) const
 {
   const std::size_t slaves = slave.node.size(), nodes = slaves + mesh->master.node.size();
   std::vector<double> values(9 * nodes,
@@ -146,6 +146,8 @@ PetscErrorCode GelOnGel::Gather(const PlateFrames &frames, const double *U, cons
   PetscCallMPI(
       MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM, comm));
   Unpack(frames, values, shift, state);
+  state.memory.assign(memory.start.begin(), memory.start.end());
+  state.weights = memory.weights;
   PetscFunctionReturn(0);
 }
 
@@ -196,15 +198,15 @@ PetscErrorCode GelOnGel::ShareFailure(const MortarReport &report, std::string &f
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode GelOnGel::AddResidual(const PlateFrames &frames, const double *U, const double *Udot,
-                                     double *F, double *magnitude, std::string &failure)
+PetscErrorCode GelOnGel::AddResidual(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                                     const double *Udot, double *F, double *magnitude, std::string &failure)
 {
   const std::size_t slaves = slave.node.size(), masters = mesh->master.node.size();
   const std::size_t length =
       6 * slaves + 3 * masters; // forces and conditions of the slave, forces of the master
   ContactState<double> state;
   PetscFunctionBeginUser;
-  PetscCall(Gather(frames, U, Udot, 1, state));
+  PetscCall(Gather(frames, U, Udot, 1, state, memory));
   PetscCall(Evaluate(state, false, failure));
   if (!failure.empty()) PetscFunctionReturn(0);
 
@@ -280,15 +282,15 @@ PetscErrorCode GelOnGel::Add(const ContactBlock &block, Mat A) const
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode GelOnGel::AddJacobian(const PlateFrames &frames, const double *U, const double *Udot,
-                                     double shift, Mat A, std::string &failure)
+PetscErrorCode GelOnGel::AddJacobian(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                                     const double *Udot, double shift, Mat A, std::string &failure)
 {
   ContactState<double> state;
   PetscErrorCode worst = 0;
   OwnRows own;
   std::vector<PetscInt> rows, columns;
   PetscFunctionBeginUser;
-  PetscCall(Gather(frames, U, Udot, shift, state));
+  PetscCall(Gather(frames, U, Udot, shift, state, memory));
   PetscCall(Evaluate(state, true, failure));
   if (!failure.empty()) PetscFunctionReturn(0);
   PetscCall(own.Open(A));
@@ -368,12 +370,36 @@ std::vector<ContactStatus> GelOnGel::statuses() const
   return all;
 }
 
-PetscErrorCode GelOnGel::Results(const PlateFrames &frames, const double *U, const double *Udot,
-                                 SurfaceResults &results, double &force, double &torque)
+PetscErrorCode GelOnGel::Advance(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                                 const double *Udot, std::span<double> next)
+{
+  ContactState<double> state;
+  std::string failure;
+  PetscFunctionBeginUser;
+  PetscCall(Gather(frames, U, Udot, 1, state, memory));
+  PetscCall(Evaluate(state, false, failure));
+  PetscCheck(failure.empty(), comm, PETSC_ERR_PLIB, "a converged step cannot be evaluated again: %s",
+             failure.c_str());
+  const Friction &friction = model->friction();
+  std::fill(next.begin(), next.end(), 0.0);
+  for (int a = first; a < last; ++a) { // the sum with the other ranks' zeros is exact
+    const NodeResult node = model->result(a);
+    next[static_cast<std::size_t>(a)] =
+        node.carries && node.status != ContactStatus::open
+            ? state.friction_at(a, friction).memory_after(node.velocity.norm())
+            : friction.law()->initial_memory();
+  }
+  PetscCallMPI(
+      MPI_Allreduce(MPI_IN_PLACE, next.data(), static_cast<int>(next.size()), MPI_DOUBLE, MPI_SUM, comm));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode GelOnGel::Results(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                                 const double *Udot, SurfaceResults &results, double &force, double &torque)
 {
   ContactState<double> state;
   PetscFunctionBeginUser;
-  PetscCall(Gather(frames, U, Udot, 1, state));
+  PetscCall(Gather(frames, U, Udot, 1, state, memory));
   results = {};
   force = torque = 0;
   const auto nodes = static_cast<int>(slave.node.size());

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "contact/contact_operator.hpp"
+#include "contact/friction_memory.hpp"
 #include "contact/plate_frames.hpp"
 
 #include <optional>
@@ -36,12 +37,17 @@ public:
 
   /// Contact forces and conditions are added to the local array `F` (at nodes that this rank owns) and their
   /// absolute parts to `magnitude`. On failure `failure` says why, on every rank. Collective.
-  PetscErrorCode AddResidual(const PlateFrames &frames, const double *U, const double *Udot, double *F,
-                             double *magnitude, std::string &failure);
+  PetscErrorCode AddResidual(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                             const double *Udot, double *F, double *magnitude, std::string &failure);
 
   /// dF/dU + shift dF/dUdot, into `A` by global indices. Collective.
-  PetscErrorCode AddJacobian(const PlateFrames &frames, const double *U, const double *Udot, double shift,
-                             Mat A, std::string &failure);
+  PetscErrorCode AddJacobian(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                             const double *Udot, double shift, Mat A, std::string &failure);
+
+  /// What is remembered after a solve that ended at U: nodes that are open forget. `next` is the slave's.
+  /// Collective.
+  PetscErrorCode Advance(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                         const double *Udot, std::span<double> next);
 
   /// Where undeformed gels stand so: the share of the slave that hangs over the master's edge, or why they
   /// cannot. Collective.
@@ -57,8 +63,10 @@ public:
 
   /// Nodal results of the slave, and force [N] and torque [N mm] that the tractions transmit, signed as the
   /// plate's reactions; the same on every rank. Collective.
-  PetscErrorCode Results(const PlateFrames &frames, const double *U, const double *Udot,
-                         SurfaceResults &results, double &force, double &torque);
+  PetscErrorCode Results(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                         const double *Udot, SurfaceResults &results, double &force, double &torque);
+
+  std::size_t slave_nodes() const { return slave.node.size(); }
 
   /// Of each slave node: whether it carries a multiplier, and the constant diagonal of the mortar matrix
   /// [mm^2].
@@ -82,7 +90,7 @@ public:
 
 private:
   PetscErrorCode Gather(const PlateFrames &frames, const double *U, const double *Udot, double shift,
-                        ContactState<double> &state) const;
+                        ContactState<double> &state, const FrictionMemory &memory = {}) const;
   void Unpack(const PlateFrames &frames, const std::vector<double> &values, double shift,
               ContactState<double> &state) const;
   PetscErrorCode Evaluate(const ContactState<double> &state, bool derivatives, std::string &failure);

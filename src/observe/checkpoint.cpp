@@ -20,7 +20,7 @@ const std::string kind = std::string("checkpoint of tribogel ") + version;
 
 constexpr const char *mesh_name = "mesh"; ///< of its digest in the file
 
-template <class Visitor> PetscErrorCode VisitCounts(SolveCounts &counts, Visitor &visit)
+template <class AnyCounts, class Visitor> PetscErrorCode VisitCounts(AnyCounts &counts, Visitor &visit)
 {
   PetscFunctionBeginUser;
   PetscCall(visit("accepted_steps", counts.accepted_steps));
@@ -121,11 +121,12 @@ PetscErrorCode Checkpoint::Restore(const StoredRun &stored, Problem &problem)
   Record rows, phases;
   std::vector<double> bytes;
   PetscFunctionBeginUser;
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.state.U)));
+  const MPI_Comm comm =
+      PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.stepper.state.U)));
   PetscCall(Orders(problem));
   Loader load(*orders, comm, stored.data);
-  PetscCall(VisitState(problem.state, load));
-  PetscCall(VisitCounts(problem.counts, load));
+  PetscCall(VisitState(problem.stepper.state, load));
+  PetscCall(VisitCounts(problem.stepper.counts, load));
   PetscCall(VisitCost(earlier, load));
   PetscCall(Load(load, steps_name, unwritten_row_names(), rows));
   PetscCall(Load(load, phase_ends_name, unwritten_phase_end_names(), phases));
@@ -149,7 +150,7 @@ PetscErrorCode Checkpoint::Restore(const StoredRun &stored, Problem &problem)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Checkpoint::Start(Problem &problem)
+PetscErrorCode Checkpoint::Start(const Problem &problem)
 {
   PetscFunctionBeginUser;
   ask = ask_signals_and_clock(wall_start, output.wall_time);
@@ -158,39 +159,43 @@ PetscErrorCode Checkpoint::Start(Problem &problem)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Checkpoint::Step(Problem &problem, const StepReport &report)
+PetscErrorCode Checkpoint::Step(const Problem &problem, const StepReport &report)
 {
   PetscFunctionBeginUser;
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.state.U)));
+  const MPI_Comm comm =
+      PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.stepper.state.U)));
   std::string why;
   PetscCall(ask(comm, why));
   int due = MPI_Wtime() - last_written >= output.checkpoint_every; // clocks differ between the ranks
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &due, 1, MPI_INT, MPI_MAX, comm));
-  const bool over = problem.state.time == problem.scene.schedule.back().end_time;
-  const bool stop = !over && !why.empty();
-  if (stop || due || report.ends_phase) PetscCall(Write(problem));
-  if (stop) {
+  const bool over = problem.stepper.state.time == problem.system.scene.schedule.back().end_time;
+  const bool ends = !over && !why.empty();
+  if (ends || due || report.ends_phase) PetscCall(Write(problem));
+  if (ends) {
     char when[64];
-    std::snprintf(when, sizeof when, " at t = %.10g s, to be continued with -restart ", problem.state.time);
-    problem.stop.request(why + when + output.directory);
+    std::snprintf(when, sizeof when, " at t = %.10g s, to be continued with -restart ",
+                  problem.stepper.state.time);
+    stop.request(why + when + output.directory);
   }
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Checkpoint::Write(Problem &problem)
+PetscErrorCode Checkpoint::Write(const Problem &problem)
 {
   DataFile data;
   RunCost cost;
   PetscMPIInt rank;
   PetscFunctionBeginUser;
   if (!recorder.complaint.empty()) PetscFunctionReturn(0); // the last one fits what is in the files
-  PetscCall(PetscLogEventBegin(problem.events.checkpoint, 0, 0, 0, 0));
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.state.U)));
+  PetscCall(events.Register());
+  PetscCall(PetscLogEventBegin(events.checkpoint, 0, 0, 0, 0));
+  const MPI_Comm comm =
+      PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.stepper.state.U)));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(Orders(problem));
   Saver save(*orders, comm, data);
-  PetscCall(VisitState(problem.state, save));
-  PetscCall(VisitCounts(problem.counts, save));
+  PetscCall(VisitState(problem.stepper.state, save));
+  PetscCall(VisitCounts(problem.stepper.counts, save));
   PetscCall(Cost(comm, cost));
   PetscCall(VisitCost(cost, save));
   std::string complaint;
@@ -208,9 +213,9 @@ PetscErrorCode Checkpoint::Write(Problem &problem)
     return failed.empty() ? failed : failed + recorder.way_out(problem);
   };
   PetscCall(OnFirstProcess(comm, write, complaint)); // PETSc calls this: nothing may be thrown
-  if (!complaint.empty()) problem.stop.give_up(complaint);
+  if (!complaint.empty()) stop.give_up(complaint);
   last_written = MPI_Wtime();
-  PetscCall(PetscLogEventEnd(problem.events.checkpoint, 0, 0, 0, 0));
+  PetscCall(PetscLogEventEnd(events.checkpoint, 0, 0, 0, 0));
   PetscFunctionReturn(0);
 }
 

@@ -39,12 +39,12 @@ public:
   /// Problem, recorder and costs as they were. Throws UserError if the checkpoint does not fit. Collective.
   PetscErrorCode Restore(const StoredRun &stored, Problem &problem);
 
-  PetscErrorCode Start(Problem &problem) override;
-  PetscErrorCode Step(Problem &problem, const StepReport &report) override;
+  PetscErrorCode Start(const Problem &problem) override;
+  PetscErrorCode Step(const Problem &problem, const StepReport &report) override;
 
   /// One that cannot be written ends the run and leaves the last one; nor is there a new one where rows are
   /// missing.
-  PetscErrorCode Write(Problem &problem);
+  PetscErrorCode Write(const Problem &problem);
 
   /// Of this program and of those it continues. Collective.
   PetscErrorCode Cost(MPI_Comm comm, RunCost &cost) const;
@@ -60,6 +60,7 @@ private:
   bool restored = false;
   RunCost earlier;
   std::optional<NaturalOrders> orders;
+  LogEvents events;
 };
 
 } // namespace tribogel

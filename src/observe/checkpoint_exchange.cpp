@@ -24,25 +24,26 @@ PetscErrorCode NaturalOrders::SetUp(const Problem &problem)
 {
   std::vector<long long> keys;
   PetscFunctionBeginUser;
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.state.U)));
-  for (std::size_t k = 0; k < problem.group.size(); ++k) // a node has one unknown of each group
-    keys.push_back(static_cast<long long>(problem.mesh.nodes[problem.node_of_row[k]].natural) *
+  const MPI_Comm comm =
+      PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.stepper.state.U)));
+  for (std::size_t k = 0; k < problem.system.rows.group.size(); ++k) // a node has one unknown of each group
+    keys.push_back(static_cast<long long>(problem.system.mesh.nodes[problem.system.rows.node[k]].natural) *
                        residual_groups +
-                   problem.group[k]);
+                   problem.system.rows.group[k]);
   PetscCall(unknowns.SetUp(comm, keys, std::vector<int>(keys.size(), 1)));
 
-  const std::vector<std::size_t> offset = problem.bulk->HistoryOffsets();
+  const std::vector<std::size_t> offset = problem.system.bulk->HistoryOffsets();
   std::vector<int> lengths;
   keys.clear();
   for (std::size_t n = 0; n + 1 < offset.size(); ++n) {
-    keys.push_back(problem.mesh.cells[n].natural);
+    keys.push_back(problem.system.mesh.cells[n].natural);
     lengths.push_back(static_cast<int>(offset[n + 1] - offset[n]));
   }
   PetscCall(internal.SetUp(comm, keys, lengths));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Saver::operator()(const std::string &name, VecHandle &vector)
+PetscErrorCode Saver::operator()(const std::string &name, const VecHandle &vector)
 {
   ConstArray values;
   PetscFunctionBeginUser;
@@ -51,7 +52,7 @@ PetscErrorCode Saver::operator()(const std::string &name, VecHandle &vector)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Saver::operator()(const std::string &name, History &history)
+PetscErrorCode Saver::operator()(const std::string &name, const History &history)
 {
   PetscFunctionBeginUser;
   PetscCheck(history.size() == orders.internal.local_size(), PETSC_COMM_SELF, PETSC_ERR_PLIB,
@@ -60,14 +61,21 @@ PetscErrorCode Saver::operator()(const std::string &name, History &history)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Saver::operator()(const std::string &name, std::span<double> numbers)
+PetscErrorCode Saver::operator()(const std::string &name, const FrictionHistory &history)
+{
+  PetscFunctionBeginUser;
+  if (!history.values.empty()) PetscCall((*this)(name, std::span<const double>(history.values)));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Saver::operator()(const std::string &name, std::span<const double> numbers)
 {
   PetscFunctionBeginUser;
   file.numbers[name].assign(numbers.begin(), numbers.end());
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Saver::Sum(const std::string &name, double &share)
+PetscErrorCode Saver::Sum(const std::string &name, const double &share)
 {
   double sum = share;
   PetscFunctionBeginUser;
@@ -98,6 +106,13 @@ PetscErrorCode Loader::operator()(const std::string &name, History &history)
   PetscFunctionBeginUser;
   history.resize(orders.internal.local_size());
   PetscCall(orders.internal.Scatter(Take(name, orders.internal.size()), history.data()));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode Loader::operator()(const std::string &name, FrictionHistory &history)
+{
+  PetscFunctionBeginUser;
+  if (!history.values.empty()) PetscCall((*this)(name, std::span(history.values)));
   PetscFunctionReturn(0);
 }
 

@@ -2,9 +2,9 @@
 /// one's DataFile. All calls are collective.
 #pragma once
 
-#include "solve/problem.hpp"
 #include "support/data_file.hpp"
 #include "support/shared_order.hpp"
+#include "time/problem.hpp"
 
 #include <span>
 #include <type_traits>
@@ -24,15 +24,17 @@ class Saver
 public:
   Saver(const NaturalOrders &by, MPI_Comm on, DataFile &to) : orders(by), comm(on), file(to) {}
 
-  PetscErrorCode operator()(const std::string &name, VecHandle &vector);
-  PetscErrorCode operator()(const std::string &name, History &history);
-  PetscErrorCode operator()(const std::string &name, std::span<double> numbers);
-  PetscErrorCode Sum(const std::string &name, double &share);
+  PetscErrorCode operator()(const std::string &name, const VecHandle &vector);
+  PetscErrorCode operator()(const std::string &name, const History &history);
+  PetscErrorCode operator()(const std::string &name, const FrictionHistory &history);
+  PetscErrorCode operator()(const std::string &name, std::span<const double> numbers);
+  PetscErrorCode Sum(const std::string &name, const double &share);
 
   template <class Number>
-  requires std::is_arithmetic_v<Number> PetscErrorCode operator()(const std::string &name, Number &number)
+  requires std::is_arithmetic_v<Number> PetscErrorCode operator()(const std::string &name,
+                                                                  const Number &number)
   {
-    double value = static_cast<double>(number);
+    const double value = static_cast<double>(number);
     return (*this)(name, std::span(&value, 1));
   }
 
@@ -51,6 +53,7 @@ public:
 
   PetscErrorCode operator()(const std::string &name, VecHandle &vector);
   PetscErrorCode operator()(const std::string &name, History &history);
+  PetscErrorCode operator()(const std::string &name, FrictionHistory &history);
   PetscErrorCode operator()(const std::string &name, std::span<double> numbers);
   PetscErrorCode Sum(const std::string &name, double &share); ///< all of it on the first process
 

@@ -46,11 +46,11 @@ int fewest_elements(const Scene &scene)
 class PhaseEnds : public Observer
 {
 public:
-  PhaseEnds(const StopQuestion &stop, std::vector<PlateLoads> &loads) : ask(stop), ends(loads) {}
+  PhaseEnds(const StopQuestion &asked, std::vector<PlateLoads> &loads) : ask(asked), ends(loads) {}
 
-  PetscErrorCode Start(Problem &) override { return 0; }
+  PetscErrorCode Start(const Problem &) override { return 0; }
 
-  PetscErrorCode Step(Problem &problem, const StepReport &report) override
+  PetscErrorCode Step(const Problem &problem, const StepReport &report) override
   {
     PetscFunctionBeginUser;
     if (report.ends_phase) {
@@ -58,10 +58,11 @@ public:
       PetscCall(Measure(problem, measured, nullptr));
       ends.push_back({measured.normal_force, measured.torque});
     }
-    const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.state.U)));
+    const MPI_Comm comm =
+        PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(problem.stepper.state.U)));
     std::string why;
     PetscCall(ask(comm, why));
-    if (!why.empty()) problem.stop.request(why);
+    if (!why.empty()) stop.request(why);
     PetscFunctionReturn(0);
   }
 
@@ -71,12 +72,12 @@ private:
 };
 
 /// Other steps, whichever option the run's follow (-time_tolerance, or -ts_atol, which has the last word).
-PetscErrorCode ScaleTolerance(Problem &problem, double factor)
+PetscErrorCode ScaleTolerance(const Problem &problem, double factor)
 {
   PetscReal tolerance;
   PetscFunctionBeginUser;
-  PetscCall(TSGetTolerances(problem.ts, &tolerance, nullptr, nullptr, nullptr));
-  PetscCall(TSSetTolerances(problem.ts, factor * tolerance, nullptr, PETSC_DECIDE, nullptr));
+  PetscCall(TSGetTolerances(problem.stepper.ts, &tolerance, nullptr, nullptr, nullptr));
+  PetscCall(TSSetTolerances(problem.stepper.ts, factor * tolerance, nullptr, PETSC_DECIDE, nullptr));
   PetscFunctionReturn(0);
 }
 
@@ -91,11 +92,11 @@ PetscErrorCode Solve(MPI_Comm comm, const Scene &scene, SerialMesh mesh, const S
   PetscCall(problem.SetUp(comm, scene, std::move(mesh)));
   PetscCall(ScaleTolerance(problem, companion.tolerance_over));
   PetscCall(problem.Run({&observer}, completed, companion.failure));
-  PetscCall(TSGetSNES(problem.ts, &snes));
+  PetscCall(TSGetSNES(problem.stepper.ts, &snes));
   PetscCall(SNESGetTolerances(snes, nullptr, &companion.newton_tolerance, nullptr, nullptr, nullptr));
-  companion.unknowns = problem.mesh.unknowns;
-  companion.steps = problem.counts.accepted_steps;
-  stopped = problem.stop.is_request();
+  companion.unknowns = problem.system.mesh.unknowns;
+  companion.steps = problem.stepper.counts.accepted_steps;
+  stopped = problem.stepper.stop.is_request();
   if (completed) companion.failure.clear();
   PetscFunctionReturn(0);
 }

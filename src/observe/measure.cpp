@@ -14,18 +14,20 @@ namespace
 {
 
 /// What the top plate does to its gel through the bonded face; all ranks'.
-PetscErrorCode PlateReaction(Problem &problem, const double *U, Wrench &reaction)
+PetscErrorCode PlateReaction(const Problem &problem, const double *U, Wrench &reaction)
 {
   LocalVector forces;
   MutableArray f;
   PetscFunctionBeginUser;
-  PetscCall(forces.GetZero(problem.mesh.dm));
+  PetscCall(forces.GetZero(problem.system.mesh.dm));
   PetscCall(f.Get(forces));
   const StepWeights frozen{0}; // the internal variables are those at the end of the step
-  const BulkFailure failure = problem.bulk->AddTopPlateForces(U, problem.state.history, frozen, f);
+  const BulkFailure failure =
+      problem.system.bulk->AddTopPlateForces(U, problem.stepper.state.history, frozen, f);
   PetscCheck(!failure, PETSC_COMM_SELF, PETSC_ERR_PLIB, "a converged state cannot be evaluated");
-  reaction = problem.plate_wrench(U, f);
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(problem.mesh.dm)));
+  reaction = problem.system.plate_wrench(U, f);
+  const MPI_Comm comm =
+      PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(problem.system.mesh.dm)));
   for (Vector3<double> *part : {&reaction.force, &reaction.moment})
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, part->data(), 3, MPI_DOUBLE, MPI_SUM, comm));
   PetscFunctionReturn(0);
@@ -36,10 +38,11 @@ void read_off(const Problem &problem, const Wrench &reaction, Measurement &m)
 {
   m.normal_force = -reaction.force[2];
   m.torque = reaction.moment[2];
-  const Vector3<double> centre(0, 0, problem.plate_height());
+  const Vector3<double> centre(0, 0, problem.system.plate_height(problem.stepper.plates_now()));
   const Vector3<double> force = -reaction.force, moment = -(reaction.moment - centre.cross(reaction.force));
   // The frame of a gel that spans both plates does not turn.
-  const double angle = problem.scene.has_top() ? problem.phase().rotation(problem.state.time) : 0;
+  const double angle =
+      problem.system.scene.has_top() ? problem.stepper.phase().rotation(problem.stepper.state.time) : 0;
   const double c = std::cos(angle), s = std::sin(angle);
   m.transverse_force = {c * force[0] - s * force[1], s * force[0] + c * force[1]};
   m.bending_moment = {c * moment[0] - s * moment[1], s * moment[0] + c * moment[1]};
@@ -68,12 +71,13 @@ void average(const Problem &problem, const std::vector<SurfaceResults> &surfaces
       radius = std::max(radius, surface.slave[a].current[0]);
     }
   if (count == 0) return;
-  const Scene &scene = problem.scene;
+  const Scene &scene = problem.system.scene;
   const double N = m.normal_force;
   m.contact_radius = radius;
   if (!(N > 0)) return;
-  m.mu_apparent = apparent_coefficient(scene.friction, m.torque, N, problem.face, problem.phase().rate);
-  m.mu_gong = gong_coefficient(m.torque, N, problem.face);
+  m.mu_apparent =
+      apparent_coefficient(scene.friction, m.torque, N, problem.system.face, problem.stepper.phase().rate);
+  m.mu_gong = gong_coefficient(m.torque, N, problem.system.face);
   m.mu_mean = sum / count;
   m.mu_area_weighted = area_sum / area;
   m.mu_pressure_weighted = friction / force;
@@ -118,7 +122,8 @@ std::vector<PlanePoint<double>> curve_from_axis(const Problem &problem,
                                                 const std::vector<SurfacePlace> &places)
 {
   std::vector<PlanePoint<double>> x;
-  if (problem.mesh.dim != 2 || problem.scene.mesh.element_order != 2 || places.front().reference[0] != 0)
+  if (problem.system.mesh.dim != 2 || problem.system.scene.mesh.element_order != 2 ||
+      places.front().reference[0] != 0)
     return x;
   for (const SurfacePlace &place : places) x.push_back({place.current[0], place.current[2]});
   return x;
@@ -137,7 +142,7 @@ void settle_on_axis(const std::vector<PlanePoint<double>> &x, const ProfileRow *
 void tabulate(const Problem &problem, const SurfaceResults &surface, const char *part,
               std::vector<ProfileRow> &profile)
 {
-  const double rotation = problem.phase().rotation(problem.state.time);
+  const double rotation = problem.stepper.phase().rotation(problem.stepper.state.time);
   const std::size_t first = profile.size();
   for (std::size_t a = 0; a < surface.nodes.size(); ++a) {
     if (!surface.on_crease.empty() && surface.on_crease[a]) continue; // a node of the face
@@ -166,8 +171,8 @@ void tabulate(const Problem &problem, const std::vector<SurfaceResults> &surface
 {
   for (const SurfaceResults &surface : surfaces)
     tabulate(problem, surface, &surface == &surfaces.front() ? "face" : "wall", profile);
-  if (!problem.scene.has_bottom()) return;
-  const double rotation = problem.scene.bottom_plate_rate * problem.state.time;
+  if (!problem.system.scene.has_bottom()) return;
+  const double rotation = problem.system.scene.bottom_plate_rate * problem.stepper.state.time;
   const std::vector<SurfacePlace> &master = surfaces.front().master;
   const std::size_t first = profile.size();
   for (const SurfacePlace &place : master) profile.push_back(row_at("bottom", "face", place, rotation));
@@ -177,27 +182,27 @@ void tabulate(const Problem &problem, const std::vector<SurfaceResults> &surface
 
 } // namespace
 
-PetscErrorCode Measure(Problem &problem, Measurement &measurement, std::vector<ProfileRow> *profile)
+PetscErrorCode Measure(const Problem &problem, Measurement &measurement, std::vector<ProfileRow> *profile)
 {
   LocalVector U, Udot;
   ConstArray u, rate;
   PetscFunctionBeginUser;
   measurement = {};
-  PetscCall(U.Get(problem.mesh.dm));
-  PetscCall(Udot.Get(problem.mesh.dm));
-  PetscCall(problem.LocalState(U, Udot));
+  PetscCall(U.Get(problem.system.mesh.dm));
+  PetscCall(Udot.Get(problem.system.mesh.dm));
+  PetscCall(problem.stepper.LocalState(U, Udot));
   PetscCall(u.Get(U));
   PetscCall(rate.Get(Udot));
   Wrench reaction;
   PetscCall(PlateReaction(problem, u, reaction));
   read_off(problem, reaction, measurement);
-  if (problem.contact) {
+  if (problem.system.contact) {
     ContactResults results;
-    PetscCall(
-        problem.contact->Results(problem.frames(problem.state.time, problem.state.step), u, rate, results));
+    PetscCall(problem.system.contact->Results(problem.stepper.plates_now(), u, rate, results,
+                                              problem.stepper.friction_now()));
     reaction += results.wall;
     read_off(problem, reaction, measurement);
-    if (problem.contact->between_gels()) {
+    if (problem.system.contact->between_gels()) {
       measurement.contact_force = results.force;
       measurement.contact_torque = results.torque;
       average(problem, results.surfaces, measurement);

@@ -2,7 +2,7 @@
 /// reactions and from the contact tractions, the friction coefficients, the contact patch.
 #pragma once
 
-#include "solve/problem.hpp"
+#include "time/problem.hpp"
 
 #include <array>
 #include <limits>
@@ -46,6 +46,6 @@ struct ProfileRow {
 };
 
 /// Collective. `profile` may be null.
-PetscErrorCode Measure(Problem &problem, Measurement &measurement, std::vector<ProfileRow> *profile);
+PetscErrorCode Measure(const Problem &problem, Measurement &measurement, std::vector<ProfileRow> *profile);
 
 } // namespace tribogel

@@ -47,7 +47,7 @@ double displacement_at(const std::vector<ProfileRow> &profile, double r)
 
 } // namespace
 
-PetscErrorCode Recorder::Start(Problem &problem)
+PetscErrorCode Recorder::Start(const Problem &problem)
 {
   PetscFunctionBeginUser;
   const bool goes_on = !rows.empty();
@@ -57,24 +57,25 @@ PetscErrorCode Recorder::Start(Problem &problem)
 }
 
 /// The first process works; what it could not write ends the run on all.
-PetscErrorCode Recorder::Write(Problem &problem, const std::function<std::string()> &work)
+PetscErrorCode Recorder::Write(const Problem &problem, const std::function<std::string()> &work)
 {
   PetscFunctionBeginUser;
   if (directory.empty() || !complaint.empty()) PetscFunctionReturn(0);
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(problem.mesh.dm)));
+  const MPI_Comm comm =
+      PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(problem.system.mesh.dm)));
   const auto explained = [&] {
     const std::string failed = work();
     return failed.empty() ? failed : failed + way_out(problem);
   };
   PetscCall(OnFirstProcess(comm, explained, complaint));
-  if (!complaint.empty()) problem.stop.give_up(complaint);
+  if (!complaint.empty()) stop.give_up(complaint);
   PetscFunctionReturn(0);
 }
 
 std::string Recorder::way_out(const Problem &problem) const
 {
   char when[40];
-  std::snprintf(when, sizeof when, " (at t = %.10g s); ", problem.state.time);
+  std::snprintf(when, sizeof when, " (at t = %.10g s); ", problem.stepper.state.time);
   std::error_code ignored;
   const bool resumable = std::filesystem::exists(checkpoint_in(directory), ignored);
   return when + (resumable ? "what was written before is kept, and -restart " + directory +
@@ -127,22 +128,22 @@ std::string Recorder::objection_to_resume() const
   return {};
 }
 
-PetscErrorCode Recorder::Step(Problem &problem, const StepReport &report)
+PetscErrorCode Recorder::Step(const Problem &problem, const StepReport &report)
 {
   PetscFunctionBeginUser;
   PetscCall(Record(problem, report));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Recorder::Failed(Problem &problem, const StepFailure &failure)
+PetscErrorCode Recorder::Failed(const Problem &problem, const StepFailure &failure)
 {
   PetscFunctionBeginUser;
-  if (on_first_failure && problem.counts.failures[static_cast<std::size_t>(failure.kind)] == 1)
+  if (on_first_failure && problem.stepper.counts.failures[static_cast<std::size_t>(failure.kind)] == 1)
     on_first_failure(failure);
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Recorder::Notice(Problem &, const std::string &text)
+PetscErrorCode Recorder::Notice(const Problem &, const std::string &text)
 {
   PetscFunctionBeginUser;
   notices.push_back(text);
@@ -150,31 +151,31 @@ PetscErrorCode Recorder::Notice(Problem &, const std::string &text)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Recorder::Conclude(Problem &problem)
+PetscErrorCode Recorder::Conclude(const Problem &problem)
 {
   PetscFunctionBeginUser;
   const bool pressed = std::any_of(rows.begin(), rows.end(), [&problem](const HistoryRow &row) {
-    return std::abs(row.measurement.normal_force) > problem.least_loads[0];
+    return std::abs(row.measurement.normal_force) > problem.system.least.loads[0];
   });
-  if (pressed || !problem.contact || !problem.contact->between_gels()) PetscFunctionReturn(0);
+  if (pressed || !problem.system.contact || !problem.system.contact->between_gels()) PetscFunctionReturn(0);
   double approach = 0;
-  for (const Phase &phase : problem.scene.schedule) approach = std::max(approach, phase.end_approach);
+  for (const Phase &phase : problem.system.scene.schedule) approach = std::max(approach, phase.end_approach);
   std::ostringstream text;
   text << "the gels have never been pressed together: N and T are zero throughout. The top plate comes down "
           "by "
-       << approach << " mm at most, and the gels are " << problem.scene.initial_gap
+       << approach << " mm at most, and the gels are " << problem.system.scene.initial_gap
        << " mm apart at the start: -schedule_approach has to be larger than -initial_gap";
   PetscCall(Notice(problem, text.str()));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Recorder::Record(Problem &problem, const StepReport &report)
+PetscErrorCode Recorder::Record(const Problem &problem, const StepReport &report)
 {
   HistoryRow row{};
   std::vector<ProfileRow> surfaces;
   PetscFunctionBeginUser;
-  const State &state = problem.state;
-  const Phase &phase = problem.phase();
+  const State &state = problem.stepper.state;
+  const Phase &phase = problem.stepper.phase();
   PetscCall(Measure(problem, row.measurement, report.ends_phase ? &surfaces : nullptr));
   row.time = state.time;
   row.phase = state.phase + 1;

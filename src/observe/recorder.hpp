@@ -40,13 +40,13 @@ public:
   /// `directory` empty: nothing is written, the numbers are kept only.
   explicit Recorder(std::string where) : directory(std::move(where)) {}
 
-  PetscErrorCode Start(Problem &problem) override;
-  PetscErrorCode Step(Problem &problem, const StepReport &report) override;
-  PetscErrorCode Failed(Problem &problem, const StepFailure &failure) override;
-  PetscErrorCode Notice(Problem &problem, const std::string &text) override;
+  PetscErrorCode Start(const Problem &problem) override;
+  PetscErrorCode Step(const Problem &problem, const StepReport &report) override;
+  PetscErrorCode Failed(const Problem &problem, const StepFailure &failure) override;
+  PetscErrorCode Notice(const Problem &problem, const std::string &text) override;
 
   /// What a complete run has to tell in the end.
-  PetscErrorCode Conclude(Problem &problem);
+  PetscErrorCode Conclude(const Problem &problem);
 
   /// First process: the files' rows so far survive the machine's end; `bytes` is updated. Returns what went
   /// wrong.
@@ -73,8 +73,8 @@ public:
 private:
   std::array<std::string, 2> paths() const;
   std::string open(bool goes_on);
-  PetscErrorCode Record(Problem &problem, const StepReport &report);
-  PetscErrorCode Write(Problem &problem, const std::function<std::string()> &work);
+  PetscErrorCode Record(const Problem &problem, const StepReport &report);
+  PetscErrorCode Write(const Problem &problem, const std::function<std::string()> &work);
   std::string profile_of(const PhaseEnd &end) const;
 
   std::string directory;

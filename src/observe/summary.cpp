@@ -119,7 +119,7 @@ Json summary_of(const Problem &problem, const Recorder &recorder, const RunOutco
   json["program"] = {{"name", "tribogel"}, {"version", version}, {"petsc", petsc_version()}};
   json["status"] = outcome.status;
   json["reason"] = outcome.reason;
-  json["time_s"] = problem.state.time;
+  json["time_s"] = problem.stepper.state.time;
   for (const auto &[name, value] : options) json["options"][name] = value;
   json["warnings"] = warnings;
   json["notices"] = recorder.notices;
@@ -131,8 +131,8 @@ Json summary_of(const Problem &problem, const Recorder &recorder, const RunOutco
     most_newton = std::max(most_newton, static_cast<int>(row.report.newton_iterations));
     longest = std::max(longest, row.step);
   }
-  const SolveCounts &counts = problem.counts;
-  json["counts"] = {{"unknowns", problem.mesh.unknowns},
+  const SolveCounts &counts = problem.stepper.counts;
+  json["counts"] = {{"unknowns", problem.system.mesh.unknowns},
                     {"accepted_steps", counts.accepted_steps},
                     {"rejected_steps", counts.rejected_steps},
                     {"failed_solves", counts.failed_solves},

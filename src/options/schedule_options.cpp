@@ -120,7 +120,11 @@ void read_schedule_kind(const OptionReader &reader, SceneInput &input)
            "turn loads the gels anew");
   scene.schedule_kind = ScheduleKind::steady;
   if (!scene.has_contact()) return;
-  const bool holds = scene.friction.threshold(1.0) > 0;
+  const bool holds = scene.friction.law() && scene.friction.law()->holds_at_rest();
+  if (holds && scene.friction.has_memory() && scene.model == Model::solid)
+    refuse("-schedule_kind", "steady",
+           "in space gels rest at the axis, where steady friction that does not rise with the speed has no "
+           "value; allowed: transient, or a law with b < a");
   for (std::size_t k = 0; k < scene.schedule.size(); ++k)
     if (holds && scene.schedule[k].rate == 0)
       refuse("-schedule_kind", "steady",

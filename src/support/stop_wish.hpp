@@ -19,6 +19,13 @@ public:
     if (obstacle.find(why) == std::string::npos) obstacle += (obstacle.empty() ? "" : "; ") + why;
   }
 
+  /// What another wants too.
+  void add(const StopWish &other)
+  {
+    if (!other.asked.empty()) request(other.asked);
+    if (other.given_up()) give_up(other.obstacle);
+  }
+
   void clear() { *this = {}; }
 
   bool wanted() const { return is_request() || given_up(); }

@@ -6,6 +6,7 @@
 #include "probe.hpp"
 #include "support/user_error.hpp"
 #include "tribogel/friction/polynomial.hpp"
+#include "tribogel/friction/rate_and_state.hpp"
 
 #include <filesystem>
 
@@ -29,14 +30,21 @@ Scene scene_of(int order, bool both)
   return scene;
 }
 
+Friction rate_and_state()
+{
+  RateAndStateFriction<double> law;
+  law.set({{0.05}, {0.01}, {0.007}, {0.04}, {0.03}, {2}});
+  return law;
+}
+
 /// Asks for a stop.
 class Stop : public Observer
 {
 public:
-  PetscErrorCode Start(Problem &) override { return 0; }
-  PetscErrorCode Step(Problem &problem, const StepReport &) override
+  PetscErrorCode Start(const Problem &) override { return 0; }
+  PetscErrorCode Step(const Problem &problem, const StepReport &) override
   {
-    if (problem.state.time > stop_time) problem.stop.request("enough");
+    if (problem.stepper.state.time > stop_time) stop.request("enough");
     return 0;
   }
 };
@@ -80,9 +88,9 @@ struct StoppedRun {
     EXPECT_EQ(problem.Run({&recorder, &stop}, completed, why), 0);
     EXPECT_FALSE(completed);
     EXPECT_EQ(why, "enough");
-    EXPECT_EQ(problem.state.phase, 1);
-    EXPECT_GE(problem.state.steps_in_phase, 2);
-    EXPECT_LT(problem.state.time, problem.phase().end_time);
+    EXPECT_EQ(problem.stepper.state.phase, 1);
+    EXPECT_GE(problem.stepper.state.steps_in_phase, 2);
+    EXPECT_LT(problem.stepper.state.time, problem.stepper.phase().end_time);
     EXPECT_EQ(checkpoint.Write(problem), 0);
   }
   static OutputSettings output(const std::string &directory)
@@ -133,6 +141,7 @@ void expect_same_state(const State &a, const State &b)
     EXPECT_GT(size, 0);
   }
   EXPECT_EQ(a.history, b.history);
+  EXPECT_EQ(a.friction_history, b.friction_history);
   EXPECT_EQ(a.loads, b.loads);
   EXPECT_EQ(a.load_rates, b.load_rates);
   EXPECT_EQ(a.largest, b.largest);
@@ -167,10 +176,23 @@ void expect_same_rows(const std::vector<HistoryRow> &a, const std::vector<Histor
   EXPECT_LE(difference, tolerance * N);
 }
 
-class checkpoint_ranks : public ::testing::TestWithParam<std::pair<int, bool>>
+struct Case {
+  int order;
+  bool both; ///< gels
+  bool remembers = false;
+
+  Scene scene() const
+  {
+    Scene scene = scene_of(order, both);
+    if (remembers) scene.friction = rate_and_state();
+    return scene;
+  }
+};
+
+class checkpoint_ranks : public ::testing::TestWithParam<Case>
 {
 protected:
-  const Scene scene = scene_of(GetParam().first, GetParam().second);
+  const Scene scene = GetParam().scene();
   const SolverOptions options = SolverOptions(fixed_steps(0.5, 1e-12));
   const Directory directory{PETSC_COMM_WORLD};
   const double R = scene.twist_length();
@@ -186,19 +208,21 @@ TEST_P(checkpoint_ranks, GoesOnAsItWasOnTheSameRanks)
 {
   StoppedRun stopped(PETSC_COMM_WORLD, scene, directory.path / "stopped");
   ContinuedRun continued(PETSC_COMM_WORLD, scene, directory.path / "stopped", directory.path / "goes_on");
-  expect_same_state(continued.problem.state, stopped.problem.state);
+  expect_same_state(continued.problem.stepper.state, stopped.problem.stepper.state);
   for (double State::*share : {&State::stored, &State::dissipated}) {
-    const double all = sum_over(PETSC_COMM_WORLD, stopped.problem.state.*share);
+    const double all = sum_over(PETSC_COMM_WORLD, stopped.problem.stepper.state.*share);
     EXPECT_GT(all, 0);
-    EXPECT_EQ(sum_over(PETSC_COMM_WORLD, continued.problem.state.*share), all);
+    EXPECT_EQ(sum_over(PETSC_COMM_WORLD, continued.problem.stepper.state.*share), all);
   }
-  EXPECT_EQ(continued.problem.counts.newton_iterations, stopped.problem.counts.newton_iterations);
+  EXPECT_EQ(continued.problem.stepper.counts.newton_iterations,
+            stopped.problem.stepper.counts.newton_iterations);
   continued.finish();
   int size;
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   expect_same_rows(continued.recorder.rows, whole.rows, R, size == 1 ? 0 : 1e-12);
-  EXPECT_EQ(continued.problem.counts.accepted_steps, uninterrupted.counts.accepted_steps);
-  EXPECT_EQ(continued.problem.counts.newton_iterations, uninterrupted.counts.newton_iterations);
+  EXPECT_EQ(continued.problem.stepper.counts.accepted_steps, uninterrupted.stepper.counts.accepted_steps);
+  EXPECT_EQ(continued.problem.stepper.counts.newton_iterations,
+            uninterrupted.stepper.counts.newton_iterations);
   ASSERT_EQ(continued.recorder.phases.size(), whole.phases.size());
   for (std::size_t k = 0; k < whole.phases.size(); ++k)
     EXPECT_EQ(continued.recorder.phases[k].time, whole.phases[k].time);
@@ -227,7 +251,8 @@ TEST_P(checkpoint_ranks, GoesOnOnManyFromTheCheckpointOfOne)
 }
 
 INSTANTIATE_TEST_SUITE_P(scenes, checkpoint_ranks,
-                         ::testing::Values(std::pair{1, true}, std::pair{2, true}, std::pair{2, false}));
+                         ::testing::Values(Case{1, true}, Case{2, true}, Case{2, false},
+                                           Case{1, true, true}));
 
 /// A checkpoint of another mesh is refused, on all ranks.
 TEST(checkpoint_scene, MustFit)

@@ -29,7 +29,8 @@ Outcome outcome(MPI_Comm comm, const Scene &scene, const OptionList &given)
   EXPECT_TRUE(completed) << why;
   if (!completed) return {};
   const Measurement &end = recorder.rows.back().measurement;
-  return {end.normal_force, end.torque, problem.counts.newton_iterations, problem.counts.linear_iterations};
+  return {end.normal_force, end.torque, problem.stepper.counts.newton_iterations,
+          problem.stepper.counts.linear_iterations};
 }
 
 } // namespace

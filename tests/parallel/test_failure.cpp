@@ -25,8 +25,8 @@ TEST(failure, OfOneRankCutsTheStepOfAll)
   ASSERT_EQ(single.SetUp(PETSC_COMM_SELF, scene), 0);
   ASSERT_EQ(single.Run({&one}, alone_completed, why), 0);
   ASSERT_TRUE(completed && alone_completed) << why;
-  EXPECT_GT(single.counts.failed_solves, 0);
-  EXPECT_EQ(shared.counts.failed_solves, single.counts.failed_solves);
+  EXPECT_GT(single.stepper.counts.failed_solves, 0);
+  EXPECT_EQ(shared.stepper.counts.failed_solves, single.stepper.counts.failed_solves);
   ASSERT_EQ(many.rows.size(), one.rows.size());
   const Measurement &a = many.rows.back().measurement, &b = one.rows.back().measurement;
   EXPECT_NEAR(a.normal_force, b.normal_force, 1e-7 * b.normal_force);
@@ -42,18 +42,18 @@ TEST(failure, OfTheLinearSolverIsForgotten)
   KSP ksp;
   KSPConvergedReason reason;
   VecHandle x;
-  ASSERT_EQ(TSGetSNES(problem.ts, &snes), 0);
+  ASSERT_EQ(TSGetSNES(problem.stepper.ts, &snes), 0);
   ASSERT_EQ(SNESGetKSP(snes, &ksp), 0);
-  ASSERT_EQ(VecDuplicate(problem.state.U, x.put()), 0);
-  ASSERT_EQ(MatZeroEntries(problem.jacobian), 0);
-  ASSERT_EQ(MatAssemblyBegin(problem.jacobian, MAT_FINAL_ASSEMBLY), 0);
-  ASSERT_EQ(MatAssemblyEnd(problem.jacobian, MAT_FINAL_ASSEMBLY), 0);
-  ASSERT_EQ(KSPSetOperators(ksp, problem.jacobian, problem.jacobian), 0);
-  ASSERT_EQ(KSPSolve(ksp, problem.state.U, x), 0);
+  ASSERT_EQ(VecDuplicate(problem.stepper.state.U, x.put()), 0);
+  ASSERT_EQ(MatZeroEntries(problem.stepper.jacobian), 0);
+  ASSERT_EQ(MatAssemblyBegin(problem.stepper.jacobian, MAT_FINAL_ASSEMBLY), 0);
+  ASSERT_EQ(MatAssemblyEnd(problem.stepper.jacobian, MAT_FINAL_ASSEMBLY), 0);
+  ASSERT_EQ(KSPSetOperators(ksp, problem.stepper.jacobian, problem.stepper.jacobian), 0);
+  ASSERT_EQ(KSPSolve(ksp, problem.stepper.state.U, x), 0);
   ASSERT_EQ(KSPGetConvergedReason(ksp, &reason), 0);
   EXPECT_LT(reason, 0);
 
-  ASSERT_EQ(problem.ProbeSolver(), 0); // the same with the tangent at rest
+  ASSERT_EQ(problem.stepper.ProbeSolver(), 0); // the same with the tangent at rest
   ASSERT_EQ(KSPGetConvergedReason(ksp, &reason), 0);
   EXPECT_GT(reason, 0);
 }

@@ -5,6 +5,7 @@
 #include "hertz.hpp"
 #include "probe.hpp"
 #include "tribogel/friction/polynomial.hpp"
+#include "tribogel/friction/rate_and_state.hpp"
 
 namespace tribogel::test
 {
@@ -74,6 +75,29 @@ INSTANTIATE_TEST_SUITE_P(scenes, ranks,
                          ::testing::Values(std::pair{1, 0.0}, std::pair{2, 0.0}, std::pair{1, 0.07},
                                            std::pair{2, 0.07}));
 
+/// So does what friction remembers: it is the same list on every rank.
+TEST(ranks_memory, IsThatOfOne)
+{
+  RateAndStateFriction<double> law;
+  law.set({{0.05}, {0.01}, {0.007}, {0.04}, {0.03}, {2}});
+  const SolverOptions options(fixed_steps(0.5, 1e-12));
+  Scene scene = scene_of(2, 0);
+  scene.friction = law;
+  Problem shared, single;
+  Recorder many(""), one("");
+  run_on(PETSC_COMM_WORLD, scene, meridian_blocks(scene), shared, many);
+  run_on(PETSC_COMM_SELF, scene, meridian_blocks(scene), single, one);
+  const std::vector<double> &ages = shared.stepper.state.friction_history.values,
+                            &alone = single.stepper.state.friction_history.values;
+  ASSERT_EQ(ages.size(), alone.size());
+  ASSERT_GE(ages.size(), shared.system.mesh.slave.node.size());
+  for (std::size_t k = 0; k < ages.size(); ++k) EXPECT_NEAR(ages[k] / alone[k], 1, 1e-8);
+  EXPECT_LT(*std::min_element(ages.begin(), ages.end()), 2); // some have slid
+  const Measurement &a = many.rows.back().measurement, &b = one.rows.back().measurement;
+  EXPECT_NEAR(a.normal_force / b.normal_force, 1, 1e-10);
+  EXPECT_NEAR(a.torque / b.torque, 1, 1e-9);
+}
+
 /// So does an outline that no option gives: a spherical cap of curved elements, pressed and turned.
 TEST(ranks_outline, GivesTheNumbersOfOne)
 {
@@ -85,7 +109,7 @@ TEST(ranks_outline, GivesTheNumbersOfOne)
   run_on(PETSC_COMM_WORLD, scene, is.blocks(), shared, many);
   run_on(PETSC_COMM_SELF, scene, is.blocks(), single, one);
   ASSERT_EQ(many.rows.size(), one.rows.size());
-  for (const Node &node : shared.mesh.nodes)
+  for (const Node &node : shared.system.mesh.nodes)
     if (node.on(Side::slave)) {
       EXPECT_NEAR(std::hypot(node.X[0], node.X[1] - is.sphere()), is.sphere(), 1e-13 * is.sphere());
     }
@@ -103,21 +127,21 @@ TEST(ranks_partition, SharesTheCellsOut)
   Problem shared, single;
   ASSERT_EQ(shared.SetUp(PETSC_COMM_WORLD, scene_of(2, 0)), 0);
   ASSERT_EQ(single.SetUp(PETSC_COMM_SELF, scene_of(2, 0)), 0);
-  const int all = static_cast<int>(single.mesh.cells.size()),
-            mine = static_cast<int>(shared.mesh.cells.size());
+  const int all = static_cast<int>(single.system.mesh.cells.size()),
+            mine = static_cast<int>(shared.system.mesh.cells.size());
   EXPECT_EQ(sum_over_ranks(mine), all);
   EXPECT_NEAR(mine, static_cast<double>(all) / size, 1);
   int owned = 0;
-  for (const Node &node : shared.mesh.nodes) owned += node.owned;
-  EXPECT_EQ(sum_over_ranks(owned), static_cast<int>(single.mesh.nodes.size()));
+  for (const Node &node : shared.system.mesh.nodes) owned += node.owned;
+  EXPECT_EQ(sum_over_ranks(owned), static_cast<int>(single.system.mesh.nodes.size()));
 
-  const double unknowns = static_cast<double>(shared.group.size());
-  EXPECT_EQ(sum_over_ranks(static_cast<int>(shared.group.size())), shared.mesh.unknowns);
-  EXPECT_EQ(shared.mesh.unknowns, single.mesh.unknowns);
+  const double unknowns = static_cast<double>(shared.system.rows.group.size());
+  EXPECT_EQ(sum_over_ranks(static_cast<int>(shared.system.rows.group.size())), shared.system.mesh.unknowns);
+  EXPECT_EQ(shared.system.mesh.unknowns, single.system.mesh.unknowns);
   // Nodes between two ranks have one owner and multipliers are at the walls: 0.83 to 1.26 of an equal share
   // on 4 ranks.
-  EXPECT_LE(unknowns, (size == 1 ? 1 : 1.3 / size) * single.mesh.unknowns);
-  EXPECT_GE(unknowns, 0.8 / size * single.mesh.unknowns);
+  EXPECT_LE(unknowns, (size == 1 ? 1 : 1.3 / size) * single.system.mesh.unknowns);
+  EXPECT_GE(unknowns, 0.8 / size * single.system.mesh.unknowns);
 }
 
 /// The contact surfaces are the same list on every rank, and every node of theirs has one owner.
@@ -126,8 +150,8 @@ TEST(ranks_partition, KnowsTheContactSurfacesEverywhere)
   Problem shared, single;
   ASSERT_EQ(shared.SetUp(PETSC_COMM_WORLD, scene_of(2, 0)), 0);
   ASSERT_EQ(single.SetUp(PETSC_COMM_SELF, scene_of(2, 0)), 0);
-  for (const auto &[many, one] : {std::pair{&shared.mesh.slave, &single.mesh.slave},
-                                  std::pair{&shared.mesh.master, &single.mesh.master}}) {
+  for (const auto &[many, one] : {std::pair{&shared.system.mesh.slave, &single.system.mesh.slave},
+                                  std::pair{&shared.system.mesh.master, &single.system.mesh.master}}) {
     ASSERT_EQ(many->node.size(), one->node.size());
     ASSERT_EQ(many->facet.size(), one->facet.size());
     for (std::size_t n = 0; n < one->node.size(); ++n) {

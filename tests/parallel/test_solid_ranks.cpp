@@ -57,8 +57,8 @@ TEST(solid_ranks, GiveTheNumbersOfOne)
     scene.schedule = schedule_from_twists({1, 2}, {0.3, 0.3}, {0, 0.5});
     Problem shared, single;
     compare(scene, shared, single);
-    EXPECT_EQ(sum_over_ranks(static_cast<int>(shared.mesh.cells.size())),
-              static_cast<int>(single.mesh.cells.size()));
+    EXPECT_EQ(sum_over_ranks(static_cast<int>(shared.system.mesh.cells.size())),
+              static_cast<int>(single.system.mesh.cells.size()));
   }
 }
 
@@ -103,7 +103,7 @@ TEST(solid_ranks, ShareAMeshFile)
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   Problem shared, single;
   compare(scene, shared, single, rank ? nothing : whole, whole);
-  for (const Node &node : shared.mesh.nodes) {
+  for (const Node &node : shared.system.mesh.nodes) {
     if (node.on(Side::wall)) {
       EXPECT_NEAR(std::hypot(node.X[0], node.X[1]), 4.5, 1e-13);
     }

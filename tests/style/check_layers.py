@@ -23,7 +23,8 @@ LAYERS = (
     ("src/mesh",),
     ("src/gmsh",),
     ("src/bulk", "src/contact"),
-    ("src/solve",),
+    ("src/system",),
+    ("src/time",),
     ("src/observe",),
     ("src",),  # main.cpp
 )

@@ -69,9 +69,9 @@ template <class Model> struct Manufactured {
 
   template <int order> void add_load(const Problem &problem, double *load) const
   {
-    const Viscoelastic<double> &material = problem.scene.bottom.material;
-    integrate<order>(problem.mesh, [&](const MeshCell &cell, const auto &N, const auto &dN, const Position &X,
-                                       double weight) {
+    const Viscoelastic<double> &material = problem.system.scene.bottom.material;
+    integrate<order>(problem.system.mesh, [&](const MeshCell &cell, const auto &N, const auto &dN,
+                                              const Position &X, double weight) {
       const Field field = exact(X);
       const Matrix3<double> F = kinematics.deformation(X, field);
       const Response<double> response = material.evaluate(F, {}, {0}, nullptr, false);
@@ -79,7 +79,7 @@ template <class Model> struct Manufactured {
       const Matrix3<double> P = from_mandel(response.tau) * F.inverse().transpose();
       for (std::size_t n = 0; n < N.size(); ++n)
         for (int i = 0; i < 3; ++i)
-          load[problem.mesh.nodes[cell.node[n]].displacement + i] +=
+          load[problem.system.mesh.nodes[cell.node[n]].displacement + i] +=
               weight * P.cwiseProduct(kinematics.first(X, field, i, N[n], dN[n])).sum();
     });
   }
@@ -115,13 +115,13 @@ template <class Model> struct Manufactured {
   /// Newton's method down to round-off, from a disturbed interpolant of the exact solution.
   template <int order> void solve(Problem &problem, Vec local) const
   {
-    const double height = problem.scene.bottom.height;
-    const DM dm = problem.mesh.dm;
+    const double height = problem.system.scene.bottom.height;
+    const DM dm = problem.system.mesh.dm;
     KSP ksp;
     PC pc;
     Vec load, f, F, U, change;
     for (Vec *v : {&load, &f}) ASSERT_EQ(VecDuplicate(local, v), 0);
-    for (Vec *v : {&F, &U, &change}) ASSERT_EQ(VecDuplicate(problem.state.U, v), 0);
+    for (Vec *v : {&F, &U, &change}) ASSERT_EQ(VecDuplicate(problem.stepper.state.U, v), 0);
     ASSERT_EQ(KSPCreate(PETSC_COMM_WORLD, &ksp), 0);
     ASSERT_EQ(KSPSetType(ksp, KSPPREONLY), 0);
     ASSERT_EQ(KSPGetPC(ksp, &pc), 0);
@@ -134,7 +134,7 @@ template <class Model> struct Manufactured {
     ASSERT_EQ(VecRestoreArray(load, &values), 0);
 
     ASSERT_EQ(VecGetArray(local, &u), 0);
-    for (const Node &node : problem.mesh.nodes) {
+    for (const Node &node : problem.system.mesh.nodes) {
       const Field right = exact(position(node));
       const double disturbance = 0.004 * node.X[0] * std::sin(std::numbers::pi * node.X[dim - 1] / height);
       for (int i = 0; i < 3; ++i) u[node.displacement + i] = right.u[i] + disturbance;
@@ -144,15 +144,18 @@ template <class Model> struct Manufactured {
     double first = 0, norm = 0;
     for (int iteration = 0; iteration < 12; ++iteration) {
       ASSERT_EQ(DMGlobalToLocal(dm, U, INSERT_VALUES, local), 0);
-      std::vector<double> sizes(problem.mesh.nodes.size() * 3, 0);
+      std::vector<double> sizes(problem.system.mesh.nodes.size() * 3, 0);
       ASSERT_EQ(VecCopy(load, f), 0);
       ASSERT_EQ(VecScale(f, -1), 0);
       ASSERT_EQ(VecGetArray(f, &values), 0);
       ASSERT_EQ(VecGetArray(local, &u), 0);
-      ASSERT_FALSE(problem.bulk->AddResidual(u, problem.state.history, {0}, values, sizes.data()));
+      ASSERT_FALSE(
+          problem.system.bulk->AddResidual(u, problem.stepper.state.history, {0}, values, sizes.data()));
       BulkFailure failure;
-      ASSERT_EQ(MatZeroEntries(problem.jacobian), 0);
-      ASSERT_EQ(problem.bulk->AddJacobian(u, problem.state.history, {0}, problem.jacobian, failure), 0);
+      ASSERT_EQ(MatZeroEntries(problem.stepper.jacobian), 0);
+      ASSERT_EQ(problem.system.bulk->AddJacobian(u, problem.stepper.state.history, {0},
+                                                 problem.stepper.jacobian, failure),
+                0);
       ASSERT_EQ(VecRestoreArray(local, &u), 0);
       ASSERT_EQ(VecRestoreArray(f, &values), 0);
       ASSERT_EQ(VecZeroEntries(F), 0);
@@ -160,9 +163,9 @@ template <class Model> struct Manufactured {
       ASSERT_EQ(VecNorm(F, NORM_2, &norm), 0);
       if (iteration == 0) first = norm;
       if (norm < 1e-10 * first) break;
-      ASSERT_EQ(MatAssemblyBegin(problem.jacobian, MAT_FINAL_ASSEMBLY), 0);
-      ASSERT_EQ(MatAssemblyEnd(problem.jacobian, MAT_FINAL_ASSEMBLY), 0);
-      ASSERT_EQ(KSPSetOperators(ksp, problem.jacobian, problem.jacobian), 0);
+      ASSERT_EQ(MatAssemblyBegin(problem.stepper.jacobian, MAT_FINAL_ASSEMBLY), 0);
+      ASSERT_EQ(MatAssemblyEnd(problem.stepper.jacobian, MAT_FINAL_ASSEMBLY), 0);
+      ASSERT_EQ(KSPSetOperators(ksp, problem.stepper.jacobian, problem.stepper.jacobian), 0);
       ASSERT_EQ(KSPSolve(ksp, F, change), 0);
       ASSERT_EQ(VecAXPY(U, -1, change), 0);
     }
@@ -177,10 +180,10 @@ template <class Model> struct Manufactured {
     Vec local;
     const double *u;
     Errors e;
-    EXPECT_EQ(DMCreateLocalVector(problem.mesh.dm, &local), 0);
+    EXPECT_EQ(DMCreateLocalVector(problem.system.mesh.dm, &local), 0);
     solve<order>(problem, local);
     EXPECT_EQ(VecGetArrayRead(local, &u), 0);
-    e = errors<order>(problem.mesh, u);
+    e = errors<order>(problem.system.mesh, u);
     EXPECT_EQ(VecRestoreArrayRead(local, &u), 0);
     EXPECT_EQ(VecDestroy(&local), 0);
     return e;

@@ -17,7 +17,7 @@ class Probe
 {
 public:
   Probe(Problem &of, double step)
-      : problem(of), time(of.state.time + step), shift(1 / step), start(values(of.state.U))
+      : problem(of), time(of.stepper.state.time + step), shift(1 / step), start(values(of.stepper.state.U))
   {
   }
 
@@ -54,7 +54,7 @@ public:
   std::array<int, 3> statuses() const
   {
     std::array<int, 3> count{};
-    for (ContactStatus status : problem.contact->lower_face().statuses())
+    for (ContactStatus status : problem.system.contact->lower_face().statuses())
       ++count[static_cast<std::size_t>(status)];
     return count;
   }
@@ -68,13 +68,13 @@ private:
     Vec global;
     PetscScalar *array;
     PetscFunctionBeginUser;
-    PetscCall(DMGetGlobalVector(problem.mesh.dm, &global));
+    PetscCall(DMGetGlobalVector(problem.system.mesh.dm, &global));
     PetscCall(VecGetArray(global, &array));
     std::copy(values.begin(), values.end(), array);
     PetscCall(VecRestoreArray(global, &array));
     PetscCall(VecZeroEntries(local));
-    PetscCall(DMGlobalToLocal(problem.mesh.dm, global, INSERT_VALUES, local));
-    PetscCall(DMRestoreGlobalVector(problem.mesh.dm, &global));
+    PetscCall(DMGlobalToLocal(problem.system.mesh.dm, global, INSERT_VALUES, local));
+    PetscCall(DMRestoreGlobalVector(problem.system.mesh.dm, &global));
     PetscFunctionReturn(0);
   }
 
@@ -84,13 +84,13 @@ private:
     Values velocity(U.size());
     PetscFunctionBeginUser;
     for (std::size_t k = 0; k < U.size(); ++k) velocity[k] = shift * (U[k] - start[k]);
-    PetscCall(DMGetLocalVector(problem.mesh.dm, &local));
+    PetscCall(DMGetLocalVector(problem.system.mesh.dm, &local));
     PetscCall(Local(U, local));
     u = values(local);
     PetscCall(Local(velocity, local));
     rate = values(local);
-    PetscCall(DMRestoreLocalVector(problem.mesh.dm, &local));
-    problem.SetBoundary(time, u.data(), rate.data());
+    PetscCall(DMRestoreLocalVector(problem.system.mesh.dm, &local));
+    problem.system.SetBoundary(problem.stepper.plates(time, 0), u.data(), rate.data());
     PetscFunctionReturn(0);
   }
 
@@ -99,16 +99,16 @@ private:
     Vec local, global;
     PetscScalar *array;
     PetscFunctionBeginUser;
-    PetscCall(DMGetLocalVector(problem.mesh.dm, &local));
-    PetscCall(DMGetGlobalVector(problem.mesh.dm, &global));
+    PetscCall(DMGetLocalVector(problem.system.mesh.dm, &local));
+    PetscCall(DMGetGlobalVector(problem.system.mesh.dm, &global));
     PetscCall(VecGetArray(local, &array));
     std::copy(local_values.begin(), local_values.end(), array);
     PetscCall(VecRestoreArray(local, &array));
     PetscCall(VecZeroEntries(global));
-    PetscCall(DMLocalToGlobal(problem.mesh.dm, local, ADD_VALUES, global));
+    PetscCall(DMLocalToGlobal(problem.system.mesh.dm, local, ADD_VALUES, global));
     global_values = values(global);
-    PetscCall(DMRestoreGlobalVector(problem.mesh.dm, &global));
-    PetscCall(DMRestoreLocalVector(problem.mesh.dm, &local));
+    PetscCall(DMRestoreGlobalVector(problem.system.mesh.dm, &global));
+    PetscCall(DMRestoreLocalVector(problem.system.mesh.dm, &local));
     PetscFunctionReturn(0);
   }
 
@@ -118,9 +118,10 @@ private:
     PetscFunctionBeginUser;
     PetscCall(LocalState(U, u, rate));
     Values f(u.size(), 0.0), sizes(u.size(), 0.0);
-    PetscCall(problem.AddResidual(time, u.data(), rate.data(), f.data(), sizes.data()));
-    EXPECT_FALSE(problem.bulk_failure);
-    EXPECT_EQ(problem.contact_failure, "");
+    PetscCall(problem.system.AddResidual(problem.stepper.solve(time), u.data(), rate.data(), f.data(),
+                                         sizes.data()));
+    EXPECT_FALSE(problem.system.failure.bulk);
+    EXPECT_EQ(problem.system.failure.contact, "");
     PetscCall(Global(f, F));
     if (magnitude) PetscCall(Global(sizes, *magnitude));
     PetscFunctionReturn(0);
@@ -132,23 +133,25 @@ private:
     bool covered = true;
     PetscFunctionBeginUser;
     PetscCall(LocalState(U, u, rate));
-    if (problem.contact)
-      PetscCall(problem.contact->UpdateCandidates(problem.frames(time, 1 / shift), u.data(), covered));
-    if (!covered) PetscCall(problem.BuildMatrix());
-    PetscCall(MatZeroEntries(problem.jacobian));
-    PetscCall(problem.AddJacobian(time, u.data(), rate.data(), shift, problem.jacobian));
-    EXPECT_FALSE(problem.bulk_failure);
-    EXPECT_EQ(problem.contact_failure, "");
-    PetscCall(MatAssemblyBegin(problem.jacobian, MAT_FINAL_ASSEMBLY));
-    PetscCall(MatAssemblyEnd(problem.jacobian, MAT_FINAL_ASSEMBLY));
+    if (problem.system.contact)
+      PetscCall(problem.system.contact->UpdateCandidates(problem.stepper.plates(time, 1 / shift), u.data(),
+                                                         covered));
+    if (!covered) PetscCall(problem.stepper.BuildMatrix());
+    PetscCall(MatZeroEntries(problem.stepper.jacobian));
+    PetscCall(problem.system.AddJacobian(problem.stepper.solve(time), u.data(), rate.data(), shift,
+                                         problem.stepper.jacobian));
+    EXPECT_FALSE(problem.system.failure.bulk);
+    EXPECT_EQ(problem.system.failure.contact, "");
+    PetscCall(MatAssemblyBegin(problem.stepper.jacobian, MAT_FINAL_ASSEMBLY));
+    PetscCall(MatAssemblyEnd(problem.stepper.jacobian, MAT_FINAL_ASSEMBLY));
     rows.assign(U.size(), Values(U.size(), 0.0));
     for (std::size_t i = 0; i < U.size(); ++i) {
       PetscInt n;
       const PetscInt *columns;
       const PetscScalar *entries;
-      PetscCall(MatGetRow(problem.jacobian, static_cast<PetscInt>(i), &n, &columns, &entries));
+      PetscCall(MatGetRow(problem.stepper.jacobian, static_cast<PetscInt>(i), &n, &columns, &entries));
       for (PetscInt k = 0; k < n; ++k) rows[i][static_cast<std::size_t>(columns[k])] = entries[k];
-      PetscCall(MatRestoreRow(problem.jacobian, static_cast<PetscInt>(i), &n, &columns, &entries));
+      PetscCall(MatRestoreRow(problem.stepper.jacobian, static_cast<PetscInt>(i), &n, &columns, &entries));
     }
     PetscFunctionReturn(0);
   }

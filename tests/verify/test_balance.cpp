@@ -27,30 +27,30 @@ Scene shortened(int elements_radial, int order = 2)
 class PlateSum : public Observer
 {
 public:
-  PetscErrorCode Start(Problem &) override { return 0; }
+  PetscErrorCode Start(const Problem &) override { return 0; }
 
-  PetscErrorCode Step(Problem &problem, const StepReport &) override
+  PetscErrorCode Step(const Problem &problem, const StepReport &) override
   {
     Vec U, Udot, forces, sizes;
     PetscScalar *u, *f, *s;
     PetscFunctionBeginUser;
-    for (Vec *v : {&U, &Udot, &forces, &sizes}) PetscCall(DMGetLocalVector(problem.mesh.dm, v));
-    PetscCall(problem.LocalState(U, Udot));
+    for (Vec *v : {&U, &Udot, &forces, &sizes}) PetscCall(DMGetLocalVector(problem.system.mesh.dm, v));
+    PetscCall(problem.stepper.LocalState(U, Udot));
     PetscCall(VecZeroEntries(forces));
     PetscCall(VecGetArray(U, &u));
     PetscCall(VecGetArray(forces, &f));
     PetscCall(VecGetArray(sizes, &s));
-    problem.bulk->AddResidual(u, problem.state.history, {0}, f, s);
+    problem.system.bulk->AddResidual(u, problem.stepper.state.history, {0}, f, s);
     double sum[2] = {0, 0};
-    for (const Node &node : problem.mesh.nodes)
+    for (const Node &node : problem.system.mesh.nodes)
       if (node.on(Side::top_plate) || node.on(Side::bottom_plate))
         for (int i = 0; i < 2; ++i) sum[i] += f[node.displacement + 2 - i];
     force = std::max(force, std::abs(sum[0]));
-    torque = std::max(torque, std::abs(sum[1]) * problem.scene.twist_length());
+    torque = std::max(torque, std::abs(sum[1]) * problem.system.scene.twist_length());
     PetscCall(VecRestoreArray(sizes, &s));
     PetscCall(VecRestoreArray(forces, &f));
     PetscCall(VecRestoreArray(U, &u));
-    for (Vec *v : {&U, &Udot, &forces, &sizes}) PetscCall(DMRestoreLocalVector(problem.mesh.dm, v));
+    for (Vec *v : {&U, &Udot, &forces, &sizes}) PetscCall(DMRestoreLocalVector(problem.system.mesh.dm, v));
     PetscFunctionReturn(0);
   }
 

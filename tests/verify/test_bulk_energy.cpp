@@ -27,7 +27,7 @@ Balance balance(const Viscoelastic<double> &material, double dt, TimeRule rule =
   run(scene, problem, recorder);
   EXPECT_EQ(recorder.rows.size(), static_cast<std::size_t>(1 + std::lround(4 / dt)))
       << "a step was cut, the order cannot be measured";
-  Balance sum{0, problem.state.stored, problem.state.dissipated};
+  Balance sum{0, problem.stepper.state.stored, problem.stepper.state.dissipated};
   for (std::size_t n = 1; n < recorder.rows.size(); ++n) {
     const HistoryRow &now = recorder.rows[n], &last = recorder.rows[n - 1];
     sum.work += 0.5 * (now.measurement.normal_force + last.measurement.normal_force) *

@@ -30,12 +30,12 @@ public:
   Asked(const Problem &problem, std::unique_ptr<Bulk> bulk)
       : given(problem), asked(std::move(bulk)), history(asked->InitialHistory())
   {
-    EXPECT_EQ(asked->LocateEntries(given.jacobian), 0);
+    EXPECT_EQ(asked->LocateEntries(given.stepper.jacobian), 0);
   }
 
   void residual(double size, double step)
   {
-    const std::vector<double> U = state_of(given.mesh, size);
+    const std::vector<double> U = state_of(given.system.mesh, size);
     std::vector<double> F(U.size(), 0), magnitude(U.size(), 0);
     EXPECT_FALSE(asked->AddResidual(U.data(), history, {step}, F.data(), magnitude.data()));
     add(F);
@@ -44,7 +44,7 @@ public:
 
   void plate(double size, double step)
   {
-    const std::vector<double> U = state_of(given.mesh, size);
+    const std::vector<double> U = state_of(given.system.mesh, size);
     std::vector<double> F(U.size(), 0);
     EXPECT_FALSE(asked->AddTopPlateForces(U.data(), history, {step}, F.data()));
     add(F);
@@ -55,22 +55,23 @@ public:
     BulkFailure failure;
     MatInfo info;
     PetscScalar *values;
-    EXPECT_EQ(MatZeroEntries(given.jacobian), 0);
-    EXPECT_EQ(asked->AddJacobian(state_of(given.mesh, size).data(), history, {step}, given.jacobian, failure),
+    EXPECT_EQ(MatZeroEntries(given.stepper.jacobian), 0);
+    EXPECT_EQ(asked->AddJacobian(state_of(given.system.mesh, size).data(), history, {step},
+                                 given.stepper.jacobian, failure),
               0);
     EXPECT_FALSE(failure);
-    EXPECT_EQ(MatAssemblyBegin(given.jacobian, MAT_FINAL_ASSEMBLY), 0);
-    EXPECT_EQ(MatAssemblyEnd(given.jacobian, MAT_FINAL_ASSEMBLY), 0);
-    EXPECT_EQ(MatGetInfo(given.jacobian, MAT_LOCAL, &info), 0);
-    EXPECT_EQ(MatSeqAIJGetArray(given.jacobian, &values), 0);
+    EXPECT_EQ(MatAssemblyBegin(given.stepper.jacobian, MAT_FINAL_ASSEMBLY), 0);
+    EXPECT_EQ(MatAssemblyEnd(given.stepper.jacobian, MAT_FINAL_ASSEMBLY), 0);
+    EXPECT_EQ(MatGetInfo(given.stepper.jacobian, MAT_LOCAL, &info), 0);
+    EXPECT_EQ(MatSeqAIJGetArray(given.stepper.jacobian, &values), 0);
     add({values, values + static_cast<std::size_t>(info.nz_used)});
-    EXPECT_EQ(MatSeqAIJRestoreArray(given.jacobian, &values), 0);
+    EXPECT_EQ(MatSeqAIJRestoreArray(given.stepper.jacobian, &values), 0);
   }
 
   void advance(double size, StepWeights step)
   {
     CellEnergy energy;
-    EXPECT_FALSE(asked->Advance(state_of(given.mesh, size).data(), history, step, history, energy));
+    EXPECT_FALSE(asked->Advance(state_of(given.system.mesh, size).data(), history, step, history, energy));
     add(history);
     add({energy.stored, energy.dissipated});
   }
@@ -110,9 +111,9 @@ void expect_same(const Scene &scene)
   Problem problem;
   std::unique_ptr<Bulk> with, without;
   ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, scene), 0);
-  ASSERT_EQ(problem.BuildMatrix(), 0);
-  ASSERT_EQ(Bulk::Create(problem.mesh, scene, with), 0);
-  ASSERT_EQ(Bulk::Create(problem.mesh, scene, without, 0), 0);
+  ASSERT_EQ(problem.stepper.BuildMatrix(), 0);
+  ASSERT_EQ(Bulk::Create(problem.system.mesh, scene, with), 0);
+  ASSERT_EQ(Bulk::Create(problem.system.mesh, scene, without, 0), 0);
   ASSERT_TRUE(with->remembers());
   ASSERT_FALSE(without->remembers());
   Asked first(problem, std::move(with)), second(problem, std::move(without));

@@ -63,8 +63,8 @@ std::vector<double> some_state(const Mesh &mesh)
 void set_up_distorted(Problem &problem, const Scene &scene)
 {
   ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, scene), 0);
-  distort(problem.mesh, a, height, a / elements, 0.2);
-  ASSERT_EQ(Bulk::Create(problem.mesh, problem.scene, problem.bulk), 0);
+  distort(problem.system.mesh, a, height, a / elements, 0.2);
+  ASSERT_EQ(Bulk::Create(problem.system.mesh, problem.system.scene, problem.system.bulk), 0);
 }
 
 struct Forces {
@@ -74,8 +74,8 @@ struct Forces {
 Forces forces(const Problem &problem, const std::vector<double> &U)
 {
   Forces f{std::vector<double>(U.size(), 0), std::vector<double>(U.size(), 0)};
-  EXPECT_FALSE(
-      problem.bulk->AddResidual(U.data(), problem.state.history, {0.37}, f.F.data(), f.magnitude.data()));
+  EXPECT_FALSE(problem.system.bulk->AddResidual(U.data(), problem.stepper.state.history, {0.37}, f.F.data(),
+                                                f.magnitude.data()));
   return f;
 }
 
@@ -110,11 +110,11 @@ TEST(bulk_patch, UniformStateIsExactOnADistortedMesh)
     Vec U, Udot;
     const double *u;
     double worst = 0;
-    ASSERT_EQ(DMCreateLocalVector(problem.mesh.dm, &U), 0);
-    ASSERT_EQ(DMCreateLocalVector(problem.mesh.dm, &Udot), 0);
-    ASSERT_EQ(problem.LocalState(U, Udot), 0);
+    ASSERT_EQ(DMCreateLocalVector(problem.system.mesh.dm, &U), 0);
+    ASSERT_EQ(DMCreateLocalVector(problem.system.mesh.dm, &Udot), 0);
+    ASSERT_EQ(problem.stepper.LocalState(U, Udot), 0);
     ASSERT_EQ(VecGetArrayRead(U, &u), 0);
-    for (const Node &node : problem.mesh.nodes) {
+    for (const Node &node : problem.system.mesh.nodes) {
       worst = std::max(worst, std::abs(u[node.displacement] - (mu - 1) * node.X[0]));
       worst = std::max(worst, std::abs(u[node.displacement + 1]));
       worst = std::max(worst, std::abs(u[node.displacement + 2] - (lambda - 1) * (node.X[1] + height)));
@@ -133,11 +133,11 @@ TEST(bulk_patch, TurningAndLiftingChangesNoForce)
   for (int order : {1, 2}) {
     Problem problem;
     ASSERT_NO_FATAL_FAILURE(set_up_distorted(problem, at_rest(viscoelastic_gel(), order)));
-    const std::vector<double> U = some_state(problem.mesh);
+    const std::vector<double> U = some_state(problem.system.mesh);
     const Forces before = forces(problem, U);
     const double turn = 2.3 * a, lift = 1.7;
     std::vector<double> moved = U;
-    for (const Node &node : problem.mesh.nodes) {
+    for (const Node &node : problem.system.mesh.nodes) {
       moved[node.displacement + 1] += turn;
       moved[node.displacement + 2] += lift;
     }
@@ -157,9 +157,9 @@ TEST(bulk_patch, ForcesOfAnyStateBalance)
   for (int order : {1, 2}) {
     Problem problem;
     ASSERT_NO_FATAL_FAILURE(set_up_distorted(problem, at_rest(viscoelastic_gel(), order)));
-    const Forces f = forces(problem, some_state(problem.mesh));
+    const Forces f = forces(problem, some_state(problem.system.mesh));
     double sum[3] = {}, size[3] = {};
-    for (const Node &node : problem.mesh.nodes)
+    for (const Node &node : problem.system.mesh.nodes)
       for (int i = 0; i < 3; ++i) {
         sum[i] += f.F[node.displacement + i];
         size[i] += f.magnitude[node.displacement + i];

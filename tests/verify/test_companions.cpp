@@ -40,8 +40,8 @@ TEST(companions, ThatDifferInNothingGiveTheNumbersOfTheRun)
     EXPECT_EQ(same.ends[k][0], recorder.phases[k].measurement.normal_force);
     EXPECT_EQ(same.ends[k][1], recorder.phases[k].measurement.torque);
   }
-  EXPECT_EQ(same.unknowns, problem.mesh.unknowns);
-  EXPECT_EQ(same.steps, problem.counts.accepted_steps);
+  EXPECT_EQ(same.unknowns, problem.system.mesh.unknowns);
+  EXPECT_EQ(same.steps, problem.stepper.counts.accepted_steps);
 }
 
 TEST(companions, WithALargerToleranceTakeLongerSteps)

@@ -19,15 +19,15 @@ constexpr double round_off = 1e-11; // relative; K / G = 144 magnifies that of t
 /// All nodes of both bodies move affinely; the pressure is the same at every node that carries one.
 void expect_uniform(const Problem &problem, const Recorder &recorder, const UniaxialState state[2])
 {
-  const Scene &scene = problem.scene;
+  const Scene &scene = problem.system.scene;
   Vec U, Udot;
   const PetscScalar *u;
-  ASSERT_EQ(DMGetLocalVector(problem.mesh.dm, &U), 0);
-  ASSERT_EQ(DMGetLocalVector(problem.mesh.dm, &Udot), 0);
-  ASSERT_EQ(problem.LocalState(U, Udot), 0);
+  ASSERT_EQ(DMGetLocalVector(problem.system.mesh.dm, &U), 0);
+  ASSERT_EQ(DMGetLocalVector(problem.system.mesh.dm, &Udot), 0);
+  ASSERT_EQ(problem.stepper.LocalState(U, Udot), 0);
   ASSERT_EQ(VecGetArrayRead(U, &u), 0);
   double worst = 0;
-  for (const Node &node : problem.mesh.nodes) {
+  for (const Node &node : problem.system.mesh.nodes) {
     const UniaxialState &body = state[node.body];
     const double plate = node.body == top_body ? scene.initial_gap + scene.top.height : -scene.bottom.height;
     const double exact[3] = {(body.lateral - 1) * node.X[0], 0, (body.axial - 1) * (node.X[1] - plate)};
@@ -35,8 +35,8 @@ void expect_uniform(const Problem &problem, const Recorder &recorder, const Unia
   }
   EXPECT_LE(worst, round_off * scene.top.radius);
   ASSERT_EQ(VecRestoreArrayRead(U, &u), 0);
-  ASSERT_EQ(DMRestoreLocalVector(problem.mesh.dm, &Udot), 0);
-  ASSERT_EQ(DMRestoreLocalVector(problem.mesh.dm, &U), 0);
+  ASSERT_EQ(DMRestoreLocalVector(problem.system.mesh.dm, &Udot), 0);
+  ASSERT_EQ(DMRestoreLocalVector(problem.system.mesh.dm, &U), 0);
 
   const double p = state[top_body].pressure;
   const double interface = scene.bottom.height * (state[bottom_body].axial - 1);

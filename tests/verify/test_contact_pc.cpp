@@ -50,12 +50,12 @@ Outcome outcome(const Scene &scene, const OptionList &options, int *rolled = nul
   run(scene, problem, recorder);
   Outcome sum{
       recorder.rows.back().measurement.normal_force, recorder.rows.back().measurement.torque, 0, 0, 0, 0};
-  sum.newton = problem.counts.newton_iterations;
-  sum.linear = problem.counts.linear_iterations;
+  sum.newton = problem.stepper.counts.newton_iterations;
+  sum.linear = problem.stepper.counts.linear_iterations;
   if (rolled)
     for (const ProfileRow &row : recorder.last_profile)
       *rolled += std::string(row.surface) == "top" && row.reference_z > 0 && row.pressure > 0;
-  for (ContactStatus status : problem.contact->lower_face().statuses()) {
+  for (ContactStatus status : problem.system.contact->lower_face().statuses()) {
     sum.slipping += status == ContactStatus::slip;
     sum.sticking += status == ContactStatus::stick;
   }

@@ -32,7 +32,7 @@ void expect_no_effect(const PolynomialFriction<double> &friction)
   run(turning_scene(spin, 0, friction), turning, with);
   ASSERT_EQ(with.rows.size(), without.rows.size());
   const double N = without.rows.back().measurement.normal_force;
-  const double R = still.scene.top.radius;
+  const double R = still.system.scene.top.radius;
   ASSERT_GT(N, 1);
   double force = 0, torque = 0, slip = 0;
   for (std::size_t k = 0; k < with.rows.size(); ++k) {

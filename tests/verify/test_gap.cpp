@@ -88,8 +88,8 @@ TEST(gap, NothingTakesAStepAPhase)
     Recorder recorder("");
     run(scene, problem, recorder);
     EXPECT_EQ(recorder.Conclude(problem), 0);
-    EXPECT_LE(problem.counts.accepted_steps, 12);
-    EXPECT_EQ(problem.counts.rejected_steps, 0);
+    EXPECT_LE(problem.stepper.counts.accepted_steps, 12);
+    EXPECT_EQ(problem.stepper.counts.rejected_steps, 0);
     const double round_off =
         16 * std::numeric_limits<double>::epsilon() * 400 * std::numbers::pi * 100; // of (K + K_v) A
     for (const HistoryRow &row : recorder.rows) {
@@ -117,8 +117,8 @@ TEST(gap, ClosedLateIsMetWithoutFailures)
     Problem problem;
     Recorder recorder("");
     run(scene, problem, recorder);
-    EXPECT_EQ(problem.counts.failed_solves, 0);
-    EXPECT_LE(problem.counts.accepted_steps + problem.counts.rejected_steps, 40);
+    EXPECT_EQ(problem.stepper.counts.failed_solves, 0);
+    EXPECT_LE(problem.stepper.counts.accepted_steps + problem.stepper.counts.rejected_steps, 40);
     stiffness.push_back(recorder.phases.back().measurement.normal_force / left);
   }
   EXPECT_NEAR(stiffness[1] / stiffness[0], 1, 5e-3); // measured without gap: 1.1e-3 between 1e-2 and 1e-4 mm
@@ -141,11 +141,12 @@ TEST(gap, TinyTravelsAreLinearAndTakeNoMoreSteps)
     const Measurement &end = recorder.phases.back().measurement;
     if (travel == 1e-3) {
       reference = {end.normal_force / travel, end.torque / travel};
-      steps = problem.counts.accepted_steps + problem.counts.rejected_steps;
+      steps = problem.stepper.counts.accepted_steps + problem.stepper.counts.rejected_steps;
     }
     EXPECT_NEAR(end.normal_force / travel / reference[0], 1, 3e-3) << travel;
     EXPECT_NEAR(end.torque / travel / reference[1], 1, 3e-3) << travel;
-    EXPECT_LE(problem.counts.accepted_steps + problem.counts.rejected_steps, 1.2 * steps) << travel;
+    EXPECT_LE(problem.stepper.counts.accepted_steps + problem.stepper.counts.rejected_steps, 1.2 * steps)
+        << travel;
   }
 }
 

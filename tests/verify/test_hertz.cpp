@@ -75,11 +75,11 @@ Errors errors_of(const HertzScene &is)
   Errors sum;
   recorder.on_row = [&](const HistoryRow &row) {
     sum.newton += row.report.newton_iterations;
-    if (row.time > 0) add_load(is, recorder, problem.contact->lower_face().weights(), sum);
+    if (row.time > 0) add_load(is, recorder, problem.system.contact->lower_face().weights(), sum);
   };
   run(is.scene(schedule_from_rates(times, approach, std::vector<double>(4, 0))), is.blocks(), problem,
       recorder);
-  sum.unknowns = problem.mesh.unknowns;
+  sum.unknowns = problem.system.mesh.unknowns;
   for (double *square : {&sum.radius, &sum.centre, &sum.pressure}) *square = std::sqrt(*square);
   return sum;
 }

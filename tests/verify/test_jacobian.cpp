@@ -7,6 +7,7 @@
 /// itself, (64 eps x sum of absolute forces + 16 x round-off of the unloaded body) / h.
 #include "probe.hpp"
 #include "tribogel/friction/polynomial.hpp"
+#include "tribogel/friction/rate_and_state.hpp"
 #include "wall_scenes.hpp"
 
 #include <limits>
@@ -26,6 +27,7 @@ struct Case {
   double traction; ///< largest random traction [MPa]
   bool wanted[3];  ///< open, stick, slip must occur
   double pressure_exponent = 1;
+  Friction other = {}; ///< in place of the polynomial law
 };
 
 Scene scene_of(const Case &c)
@@ -37,6 +39,7 @@ Scene scene_of(const Case &c)
   scene.initial_gap = c.gap;
   scene.friction = PolynomialFriction<double>{c.coefficients, c.exponents, c.pressure_exponent,
                                               0.3}; // pressures on both sides of the floor
+  if (c.other.law()) scene.friction = c.other;
   scene.schedule = schedule_from_rates({2.3, 4.1}, {0.31, 0.37}, {0.013, 0.17});
   scene.bottom_plate_rate = 0.021;
   scene.mesh.grading = 2;
@@ -52,7 +55,7 @@ Values perturbed(const Probe &probe, double traction, std::mt19937 &random)
   std::uniform_real_distribution<double> in(-1, 1);
   Values U = probe.committed();
   for (std::size_t k = 0; k < U.size(); ++k)
-    U[k] += (probe.problem.group[k] < 3 ? 0.011 : traction) * in(random);
+    U[k] += (probe.problem.system.rows.group[k] < 3 ? 0.011 : traction) * in(random);
   return U;
 }
 
@@ -60,9 +63,9 @@ Values perturbed(const Probe &probe, double traction, std::mt19937 &random)
 std::array<double, residual_groups> errors(Probe &probe, const Values &U, std::mt19937 &random)
 {
   constexpr double h = 3e-5; // mm or MPa
-  const Values floor = Probe::values(probe.problem.round_off);
+  const Values floor = Probe::values(probe.problem.system.rows.round_off);
   const std::vector<Values> J = probe.jacobian(U);
-  const auto &group = probe.problem.group;
+  const auto &group = probe.problem.system.rows.group;
   Values size;
   probe.residual(U, &size);
   std::array<double, residual_groups> worst{};
@@ -98,7 +101,7 @@ void check_matrix(Probe &probe, const Values &U, std::mt19937 &random)
   const auto worst = errors(probe, U, random);
   for (int g = 0; g < residual_groups; ++g) {
     EXPECT_LE(worst[g], relative_tolerance)
-        << group_names(probe.problem.mesh.dim)[g] << ", order " << probe.problem.mesh.order;
+        << group_names(probe.problem.system.mesh.dim)[g] << ", order " << probe.problem.system.mesh.order;
   }
 }
 
@@ -170,6 +173,15 @@ TEST_P(jacobian, OfKagatasLawOverTheEdge)
   check({GetParam(), 9.7, 0.03, {0.3}, {0.7}, 1.3, {true, false, true}, 0.5}, 0.37);
 }
 
+/// What it remembers depends on the speed in the solve at hand; long solves weaken.
+TEST_P(jacobian, OfALawWithMemory)
+{
+  RateAndStateFriction<double> law;
+  law.set({{0.5}, {0.17}, {0.21}, {0.11}, {0.3}, {0.7}});
+  for (const double step : {0.37, 23.0})
+    check({GetParam(), 12.5, 0.03, {}, {}, 1.3, {true, false, true}, 1, law}, step);
+}
+
 TEST_P(jacobian, OfWallsThatTouchTheirPlateAndRollOntoTheOtherGel)
 {
   Problem problem;
@@ -179,7 +191,8 @@ TEST_P(jacobian, OfWallsThatTouchTheirPlateAndRollOntoTheOtherGel)
   std::mt19937 random(20);
   std::uniform_real_distribution<double> in(-1, 1);
   Values U = probe.committed(); // near the state: the wall must keep lying on the other gel
-  for (std::size_t k = 0; k < U.size(); ++k) U[k] += (problem.group[k] < 3 ? 1e-4 : 0.1) * in(random);
+  for (std::size_t k = 0; k < U.size(); ++k)
+    U[k] += (problem.system.rows.group[k] < 3 ? 1e-4 : 0.1) * in(random);
   check_matrix(probe, U, random);
   const auto rolled =
       std::count_if(recorder.last_profile.begin(), recorder.last_profile.end(), [](const auto &row) {
@@ -210,7 +223,7 @@ TEST(jacobian_bulk, IsSymmetric)
     double largest = 0, difference = 0;
     for (std::size_t i = 0; i < J.size(); ++i)
       for (std::size_t j = 0; j < J.size(); ++j) {
-        if (problem.group[i] > 2 || problem.group[j] > 2) continue;
+        if (problem.system.rows.group[i] > 2 || problem.system.rows.group[j] > 2) continue;
         largest = std::max(largest, std::abs(J[i][j]));
         difference = std::max(difference, std::abs(J[i][j] - J[j][i]));
       }

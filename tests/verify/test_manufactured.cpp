@@ -59,8 +59,8 @@ template <int order> void expect_rates(double distortion)
     Problem problem;
     ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, scene), 0);
     if (distortion > 0) {
-      distort(problem.mesh, a, height, a / elements, distortion);
-      ASSERT_EQ(Bulk::Create(problem.mesh, problem.scene, problem.bulk), 0);
+      distort(problem.system.mesh, a, height, a / elements, distortion);
+      ASSERT_EQ(Bulk::Create(problem.system.mesh, problem.system.scene, problem.system.bulk), 0);
     }
     const Manufactured<AxisymmetricTorsion> is{{scene.twist_length()}, exact_field};
     const auto e = is.errors_of<order>(problem);
@@ -109,8 +109,8 @@ template <int order> void expect_solid_rates(const std::vector<int> &cells)
     scene.schedule = schedule_from_twists({1}, {0}, {0});
     Problem problem;
     ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, scene, box.mesh()), 0);
-    bend(problem.mesh);
-    ASSERT_EQ(Bulk::Create(problem.mesh, problem.scene, problem.bulk), 0);
+    bend(problem.system.mesh);
+    ASSERT_EQ(Bulk::Create(problem.system.mesh, problem.system.scene, problem.system.bulk), 0);
     const auto e = Manufactured<Solid>{{}, solid_field}.errors_of<order>(problem);
     std::printf("solid, order %d cells %2d^3: ", order, n);
     judge(e, before, k ? static_cast<double>(n) / cells[k - 1] : 1, order);

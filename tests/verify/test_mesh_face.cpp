@@ -59,7 +59,7 @@ TEST(mesh_face, IsKnownToHangOverTheEdgeBeforeItTurns)
     std::string objection;
     std::vector<std::string> doubts;
     ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, scene, cubes()), 0);
-    ASSERT_EQ(problem.JudgeStart(objection, doubts), 0);
+    ASSERT_EQ(problem.system.JudgeStart(problem.stepper.plates(0, 0), objection, doubts), 0);
     EXPECT_EQ(objection, "");
     ASSERT_EQ(doubts.size(), angle == 0.02 ? 0 : 1);
     for (const std::string &doubt : doubts)
@@ -71,12 +71,12 @@ TEST(mesh_face, IsKnownToHangOverTheEdgeBeforeItTurns)
   std::string objection;
   std::vector<std::string> doubts;
   ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, scene, cubes()), 0);
-  ASSERT_EQ(problem.JudgeStart(objection, doubts), 0);
+  ASSERT_EQ(problem.system.JudgeStart(problem.stepper.plates(0, 0), objection, doubts), 0);
   EXPECT_EQ(objection, "");
   ASSERT_EQ(doubts.size(), 1);
   EXPECT_EQ(doubts[0].find("the top gel hangs over the edge of the bottom gel with about "), 0) << doubts[0];
   double share = 0;
-  ASSERT_EQ(problem.contact->AtRest(problem.frames(0, 0), share, objection), 0);
+  ASSERT_EQ(problem.system.contact->AtRest(problem.stepper.plates(0, 0), share, objection), 0);
   EXPECT_NEAR(share, 0.05, 0.01); // Gauss points beyond the edge
 }
 

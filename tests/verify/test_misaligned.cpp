@@ -86,24 +86,24 @@ TEST(misaligned, ThePlateFeelsTheContactsForceAndMoment)
     ContactResults results;
     Vec U, Udot;
     const PetscScalar *u, *rate;
-    const PlateFrames frames = problem.frames(problem.state.time, problem.state.step);
+    const PlateFrames frames = problem.stepper.plates_now();
     const auto evaluate = [&]() -> PetscErrorCode {
       PetscFunctionBeginUser;
-      PetscCall(DMGetLocalVector(problem.mesh.dm, &U));
-      PetscCall(DMGetLocalVector(problem.mesh.dm, &Udot));
-      PetscCall(problem.LocalState(U, Udot));
+      PetscCall(DMGetLocalVector(problem.system.mesh.dm, &U));
+      PetscCall(DMGetLocalVector(problem.system.mesh.dm, &Udot));
+      PetscCall(problem.stepper.LocalState(U, Udot));
       PetscCall(VecGetArrayRead(U, &u));
       PetscCall(VecGetArrayRead(Udot, &rate));
-      PetscCall(problem.contact->Results(frames, u, rate, results));
+      PetscCall(problem.system.contact->Results(frames, u, rate, results));
       PetscCall(VecRestoreArrayRead(Udot, &rate));
       PetscCall(VecRestoreArrayRead(U, &u));
-      PetscCall(DMRestoreLocalVector(problem.mesh.dm, &Udot));
-      PetscCall(DMRestoreLocalVector(problem.mesh.dm, &U));
+      PetscCall(DMRestoreLocalVector(problem.system.mesh.dm, &Udot));
+      PetscCall(DMRestoreLocalVector(problem.system.mesh.dm, &U));
       PetscFunctionReturn(0);
     };
     ASSERT_EQ(evaluate(), 0);
     Wrench contact; // in space, about the point where the plate's face meets its axis
-    const double centre = problem.plate_height() + frames.top_travel;
+    const double centre = problem.system.plate_height(problem.stepper.plates_now()) + frames.top_travel;
     const SurfaceResults &face = results.surfaces.front();
     for (std::size_t a = 0; a < face.nodes.size(); ++a) {
       if (!face.nodes[a].carries) continue;

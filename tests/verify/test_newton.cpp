@@ -43,11 +43,11 @@ public:
   {
     auto &self = *static_cast<NewtonWatch *>(context);
     if (iteration == 0) self.iterates.clear();
-    const double size = norm(Probe::values(self.problem.magnitude));
-    const double rounding =
-        norm(Probe::values(self.problem.round_off)) + std::numeric_limits<double>::epsilon() * size;
+    const double size = norm(Probe::values(self.problem.system.rows.magnitude));
+    const double rounding = norm(Probe::values(self.problem.system.rows.round_off)) +
+                            std::numeric_limits<double>::epsilon() * size;
     Iterate now{residual, 16 * rounding, {}};
-    now.active = self.problem.contact->lower_face().statuses();
+    now.active = self.problem.system.contact->lower_face().statuses();
     self.iterates.push_back(std::move(now));
     return 0;
   }
@@ -56,12 +56,12 @@ public:
   static PetscErrorCode StartAtRest(SNES, Vec U, void *context)
   {
     PetscFunctionBeginUser;
-    PetscCall(VecCopy(static_cast<NewtonWatch *>(context)->problem.state.U, U));
+    PetscCall(VecCopy(static_cast<NewtonWatch *>(context)->problem.stepper.state.U, U));
     PetscFunctionReturn(0);
   }
 
-  PetscErrorCode Start(Problem &) override { return 0; }
-  PetscErrorCode Step(Problem &, const StepReport &) override
+  PetscErrorCode Start(const Problem &) override { return 0; }
+  PetscErrorCode Step(const Problem &, const StepReport &) override
   {
     ++steps;
     std::size_t first = iterates.size() - 1;
@@ -72,7 +72,7 @@ public:
     double C = 0;
     for (std::size_t k = first; k + 1 < end; ++k)
       C = std::max(C, iterates[k + 1].residual / (iterates[k].residual * iterates[k].residual));
-    constants[problem.state.phase].push_back(C);
+    constants[problem.stepper.state.phase].push_back(C);
     return 0;
   }
 
@@ -98,7 +98,7 @@ void watch(Scene scene, Outcome &outcome)
   bool completed = false;
   std::string why;
   ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, scene), 0);
-  ASSERT_EQ(TSGetSNES(problem.ts, &snes), 0);
+  ASSERT_EQ(TSGetSNES(problem.stepper.ts, &snes), 0);
   ASSERT_EQ(SNESMonitorSet(snes, NewtonWatch::Monitor, &newton, nullptr), 0);
   ASSERT_EQ(SNESSetComputeInitialGuess(snes, NewtonWatch::StartAtRest, &newton), 0);
   ASSERT_EQ(problem.Run({&newton}, completed, why), 0);
@@ -124,7 +124,7 @@ struct KeptMatrices {
     auto &self = *static_cast<KeptMatrices *>(context);
     PetscReal norm;
     PetscFunctionBeginUser;
-    PetscCall(MatNorm(self.problem.jacobian, NORM_FROBENIUS, &norm));
+    PetscCall(MatNorm(self.problem.stepper.jacobian, NORM_FROBENIUS, &norm));
     if (iteration > 0) {
       ++self.iterations;
       self.not_enough += self.last_was_kept;
@@ -192,7 +192,7 @@ TEST(newton, KeepsTheMatrixWhereOneMoreIterationIsEnough)
   bool completed = false;
   std::string why;
   ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, scene), 0);
-  ASSERT_EQ(TSGetSNES(problem.ts, &snes), 0);
+  ASSERT_EQ(TSGetSNES(problem.stepper.ts, &snes), 0);
   ASSERT_EQ(SNESMonitorSet(snes, KeptMatrices::Monitor, &watched, nullptr), 0);
   ASSERT_EQ(problem.Run({}, completed, why), 0);
   ASSERT_TRUE(completed) << why;

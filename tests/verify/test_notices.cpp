@@ -58,8 +58,8 @@ TEST(notices, AFailureIsToldInWordsOnceAndCounted)
   EXPECT_GT(told[0].step, 0.1);
   EXPECT_TRUE(contains(told[0].words, "turned inside out in the bottom gel near R = ")) << told[0].words;
   int failures = 0;
-  for (int count : problem.counts.failures) failures += count;
-  EXPECT_EQ(failures, problem.counts.failed_solves);
+  for (int count : problem.stepper.counts.failures) failures += count;
+  EXPECT_EQ(failures, problem.stepper.counts.failed_solves);
 }
 
 /// Newton may not iterate: every step fails, down to the smallest, and that is the end, in words.
@@ -73,7 +73,7 @@ TEST(notices, TheSmallestStepIsTheEnd)
   EXPECT_TRUE(contains(outcome.why, "no step from t = 0 s (phase 1) succeeds")) << outcome.why;
   EXPECT_TRUE(contains(outcome.why, "times its tolerance near R = ")) << outcome.why;
   EXPECT_EQ(recorder.rows.size(), 1u); // the initial state
-  EXPECT_GT(problem.counts.failures[static_cast<std::size_t>(FailureKind::newton)], 3);
+  EXPECT_GT(problem.stepper.counts.failures[static_cast<std::size_t>(FailureKind::newton)], 3);
 }
 
 TEST(notices, ANegativeCoefficientEndsTheRunAndSaysWhere)

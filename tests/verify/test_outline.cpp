@@ -29,17 +29,17 @@ Body errors_of_cap(int order, int elements)
   blocks[1] = spherical_cap(sphere, points(width), points(height));
   Problem problem;
   EXPECT_EQ(problem.SetUp(PETSC_COMM_WORLD, scene, blocks), 0);
-  for (const SurfaceNode &node : problem.mesh.slave.node)
+  for (const SurfaceNode &node : problem.system.mesh.slave.node)
     EXPECT_NEAR(std::hypot(node.X[0], node.X[1] - sphere), sphere, 1e-14 * sphere);
 
   double area = 0, volume = 0;
-  for (const auto &node : problem.contact->lower_face().weights()) area += node.D;
-  for (const MeshCell &cell : problem.mesh.cells) {
+  for (const auto &node : problem.system.contact->lower_face().weights()) area += node.D;
+  for (const MeshCell &cell : problem.system.mesh.cells) {
     const auto add = [&]<int k>() {
       Cell<AxisymmetricTorsion, k> geometry;
       std::array<std::array<double, 2>, (k + 1) * (k + 1)> X;
       for (std::size_t n = 0; n < X.size(); ++n)
-        std::copy_n(problem.mesh.nodes[cell.node[n]].X.begin(), 2, X[n].begin());
+        std::copy_n(problem.system.mesh.nodes[cell.node[n]].X.begin(), 2, X[n].begin());
       EXPECT_TRUE(geometry.set(X));
       for (const auto &point : geometry.point) volume += point.weight;
     };

@@ -90,9 +90,9 @@ double compliance(const Punch &is)
   Problem problem;
   Recorder recorder("");
   const PhaseEnd end = last_phase(is, 0, problem, recorder);
-  const double E = Elastic(problem.scene.bottom.material.equilibrium).plane();
+  const double E = Elastic(problem.system.scene.bottom.material.equilibrium).plane();
   const double own =
-      1 / (pi * a * stiffness_ratio * Elastic(problem.scene.bottom.material.equilibrium).young());
+      1 / (pi * a * stiffness_ratio * Elastic(problem.system.scene.bottom.material.equilibrium).young());
   return (end.approach / end.measurement.normal_force - own) * 2 * E * a;
 }
 
@@ -112,7 +112,7 @@ double torsion_error(int order, int elements)
   Problem problem;
   Recorder recorder("");
   const double theta = 1e-5, T = last_phase(is, theta, problem, recorder).measurement.torque;
-  const double G = problem.scene.bottom.material.equilibrium.shear_modulus();
+  const double G = problem.system.scene.bottom.material.equilibrium.shear_modulus();
   const double own =
       2 / (pi * stiffness_ratio * G * std::pow(a, 3)); // compliance of a cylinder as high as wide
   const double error = T / (theta - T * own) / (16.0 / 3 * G * std::pow(a, 3)) - 1;

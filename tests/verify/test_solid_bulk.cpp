@@ -35,8 +35,8 @@ struct Forces {
 Forces forces(const Problem &problem, const std::vector<double> &U)
 {
   Forces f{std::vector<double>(U.size(), 0), std::vector<double>(U.size(), 0)};
-  EXPECT_FALSE(
-      problem.bulk->AddResidual(U.data(), problem.state.history, {0.37}, f.F.data(), f.magnitude.data()));
+  EXPECT_FALSE(problem.system.bulk->AddResidual(U.data(), problem.stepper.state.history, {0.37}, f.F.data(),
+                                                f.magnitude.data()));
   return f;
 }
 
@@ -68,25 +68,26 @@ double largest(const std::vector<double> &values)
 
 void expect_patch(Problem &problem, double distance, double end_area)
 {
-  jostle(problem.mesh, distance, [](const std::array<double, 3> &X) {
+  jostle(problem.system.mesh, distance, [](const std::array<double, 3> &X) {
     return std::max(std::abs(X[0]), std::abs(X[1])) < 2.9 && X[2] > -0.99 * height && X[2] < -0.01 * height;
   });
-  ASSERT_EQ(Bulk::Create(problem.mesh, problem.scene, problem.bulk), 0);
+  ASSERT_EQ(Bulk::Create(problem.system.mesh, problem.system.scene, problem.system.bulk), 0);
   Matrix3<double> F;
   F << 1.23, 0.21, -0.34, -0.13, 0.87, 0.29, 0.17, -0.41, 0.79;
-  const std::vector<double> U = displacements(problem.mesh, [&](const Vector &X) -> Vector { return F * X; });
+  const std::vector<double> U =
+      displacements(problem.system.mesh, [&](const Vector &X) -> Vector { return F * X; });
   const Forces f = forces(problem, U);
   Vector end = Vector::Zero();
   double worst = 0;
-  for (const Node &node : problem.mesh.nodes) {
+  for (const Node &node : problem.system.mesh.nodes) {
     if (node.on(Side::top_plate)) end += f.of(node);
     if (!node.sides) worst = std::max(worst, f.of(node).cwiseAbs().maxCoeff());
   }
-  const Vector exact = first_piola(problem.scene.bottom.material, F).col(2) * end_area;
+  const Vector exact = first_piola(problem.system.scene.bottom.material, F).col(2) * end_area;
   std::printf("order %d, %zu cells: inner forces %.2e of %.2e N, error of the end's %.2e of %.2e N\n",
-              problem.mesh.order, problem.mesh.cells.size(), worst, largest(f.magnitude),
+              problem.system.mesh.order, problem.system.mesh.cells.size(), worst, largest(f.magnitude),
               (end - exact).norm(), exact.norm());
-  EXPECT_LT(worst, 2e-14 * problem.scene.bottom.material.equilibrium.bulk_modulus * a * a);
+  EXPECT_LT(worst, 2e-14 * problem.system.scene.bottom.material.equilibrium.bulk_modulus * a * a);
   EXPECT_LT((end - exact).norm(), 1e-12 * exact.norm());
 }
 
@@ -140,7 +141,7 @@ TEST(solid_bulk, LinearDisplacementsPassThePatchTestInACylinder)
   for (int order : {1, 2}) {
     Problem problem;
     ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, at_rest(viscoelastic_gel(), order, 4)), 0);
-    const double area = end_area(problem.mesh);
+    const double area = end_area(problem.system.mesh);
     std::printf("order %d: area of the end %.6f, circle %.6f\n", order, area, pi * a * a);
     if (order == 1) {
       EXPECT_NEAR(area, polygon(16), 1e-12 * area);
@@ -167,12 +168,12 @@ TEST(solid_bulk, AQuarterOfABlockIsUniform)
     bool completed = false;
     std::string why;
     ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, scene, box.mesh()), 0);
-    jostle(problem.mesh, 0.15, [&](const auto &X) {
+    jostle(problem.system.mesh, 0.15, [&](const auto &X) {
       return X[0] > 0.01 && X[0] < 1.99 && X[1] > 0.01 && X[1] < 1.49 && X[2] > -0.99 * height &&
              X[2] < -0.01;
     });
-    ASSERT_EQ(Bulk::Create(problem.mesh, problem.scene, problem.bulk), 0);
-    ASSERT_EQ(problem.BuildMatrix(), 0);
+    ASSERT_EQ(Bulk::Create(problem.system.mesh, problem.system.scene, problem.system.bulk), 0);
+    ASSERT_EQ(problem.stepper.BuildMatrix(), 0);
     ASSERT_EQ(problem.Run({&recorder}, completed, why), 0);
     ASSERT_TRUE(completed) << why;
     double low = 0.9, high = 1.5; // lateral stretch, from a stress-free side
@@ -184,11 +185,11 @@ TEST(solid_bulk, AQuarterOfABlockIsUniform)
     Vec U, Udot;
     const double *u;
     double worst = 0;
-    ASSERT_EQ(DMCreateLocalVector(problem.mesh.dm, &U), 0);
-    ASSERT_EQ(DMCreateLocalVector(problem.mesh.dm, &Udot), 0);
-    ASSERT_EQ(problem.LocalState(U, Udot), 0);
+    ASSERT_EQ(DMCreateLocalVector(problem.system.mesh.dm, &U), 0);
+    ASSERT_EQ(DMCreateLocalVector(problem.system.mesh.dm, &Udot), 0);
+    ASSERT_EQ(problem.stepper.LocalState(U, Udot), 0);
     ASSERT_EQ(VecGetArrayRead(U, &u), 0);
-    for (const Node &node : problem.mesh.nodes) {
+    for (const Node &node : problem.system.mesh.nodes) {
       const auto &X = node.X;
       const Vector right((low - 1) * X[0], (low - 1) * X[1], (lambda - 1) * (X[2] + height));
       worst = std::max(worst, (Vector(u + node.displacement) - right).norm());
@@ -213,13 +214,13 @@ TEST(solid_bulk, TurningAndLiftingTurnsTheForces)
   for (int order : {1, 2}) {
     Problem problem;
     ASSERT_EQ(problem.SetUp(PETSC_COMM_WORLD, at_rest(viscoelastic_gel(), order, 3)), 0);
-    const Forces before = forces(problem, displacements(problem.mesh, some));
-    const Forces after = forces(problem, displacements(problem.mesh, [&](const Vector &X) -> Vector {
+    const Forces before = forces(problem, displacements(problem.system.mesh, some));
+    const Forces after = forces(problem, displacements(problem.system.mesh, [&](const Vector &X) -> Vector {
                                   return turn * some(X) + Vector(1, -2, 3);
                                 }));
     double change = 0, size = largest(before.magnitude);
     Vector sum = Vector::Zero(), moment = Vector::Zero();
-    for (const Node &node : problem.mesh.nodes) {
+    for (const Node &node : problem.system.mesh.nodes) {
       change = std::max(change, (after.of(node) - turn * before.of(node)).norm());
       sum += before.of(node);
       moment += some(at(node.X)).cross(before.of(node));

@@ -33,7 +33,7 @@ struct Errors {
 Errors errors_of(const HertzScene &is, const Problem &problem, const Recorder &recorder)
 {
   const Hertz hertz(is, recorder.phases.front().measurement.normal_force);
-  const auto weights = problem.contact->lower_face().weights();
+  const auto weights = problem.system.contact->lower_face().weights();
   double force = 0, moment = 0, difference = 0, square = 0;
   for (std::size_t n = 0; n < weights.size(); ++n) {
     if (!weights[n].carries) continue;
@@ -91,8 +91,8 @@ TEST(solid_hertz, DISABLED_PressureAndViscousTorque)
   const Hertz hertz(is, m.normal_force);
   const double torque = m.torque / (2.0 / 5 * b * hertz.N * omega * hertz.radius * hertz.radius) - 1;
   std::printf("order 1 a/h 4 unknowns %6d newton %2d: errors of radius %.2e, pressure %.2e, T %.2e\n",
-              static_cast<int>(problem.mesh.unknowns), static_cast<int>(problem.counts.newton_iterations),
-              e.radius, e.pressure, torque);
+              static_cast<int>(problem.system.mesh.unknowns),
+              static_cast<int>(problem.stepper.counts.newton_iterations), e.radius, e.pressure, torque);
   EXPECT_LT(std::abs(e.radius), 0.03);
   EXPECT_LT(e.pressure, 0.1);
   EXPECT_LT(std::abs(torque), 0.06);
@@ -120,8 +120,8 @@ TEST(solid_hertz, DISABLED_PartialAndFullSlip)
     error[k] = m.torque / (mu * hertz.N * hertz.radius) / (k == 0 ? 0.528576 : 3 * pi / 16) - 1;
   }
   std::printf("order 1 a/h 4 unknowns %d newton %d: errors of T at c/a = 0.5 %.2e, 0 %.2e\n",
-              static_cast<int>(problem.mesh.unknowns), static_cast<int>(problem.counts.newton_iterations),
-              error[0], error[1]);
+              static_cast<int>(problem.system.mesh.unknowns),
+              static_cast<int>(problem.stepper.counts.newton_iterations), error[0], error[1]);
   std::fflush(stdout);
   for (double e : error) EXPECT_LT(std::abs(e), 0.05);
 }

@@ -169,7 +169,7 @@ Measurement pressed_or_turned(int order, double L, double finest, double depth, 
   EXPECT_EQ(problem.Run({&recorder}, completed, why), 0);
   EXPECT_TRUE(completed) << why;
   std::printf("order %d, L/a %g, finest edge %.3f a: %zu cells, %d unknowns", order, L / a, finest / a,
-              problem.mesh.cells.size(), static_cast<int>(problem.mesh.unknowns));
+              problem.system.mesh.cells.size(), static_cast<int>(problem.system.mesh.unknowns));
   return recorder.rows.back().measurement;
 }
 

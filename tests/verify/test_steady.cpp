@@ -35,7 +35,7 @@ TEST(steady, IsWhatTheTransientTendsTo)
       EXPECT_GT(b.normal_force, 10);
       EXPECT_GT(b.torque, 0.02 * b.normal_force);
       EXPECT_NEAR(a.normal_force, b.normal_force, 1e-6 * b.normal_force);
-      EXPECT_NEAR(a.torque, b.torque, 1e-6 * b.normal_force * steady.scene.top.radius);
+      EXPECT_NEAR(a.torque, b.torque, 1e-6 * b.normal_force * steady.system.scene.top.radius);
       EXPECT_NEAR(a.mu_pressure_weighted, b.mu_pressure_weighted, 1e-6);
     }
     EXPECT_LT(4 * direct.rows.size(), slow.rows.size());

@@ -41,9 +41,9 @@ struct SlipTorque {
 SlipTorque slip_torque(const Problem &problem, const std::vector<ProfileRow> &profile)
 {
   SlipTorque sum;
-  const std::vector<SurfaceNode> &nodes = problem.mesh.slave.node;
+  const std::vector<SurfaceNode> &nodes = problem.system.mesh.slave.node;
   for (std::size_t a = 0; a < nodes.size(); ++a) {
-    const NodeResult node = problem.contact->lower_face().result(static_cast<int>(a));
+    const NodeResult node = problem.system.contact->lower_face().result(static_cast<int>(a));
     const double R = nodes[a].X[0];
     if (!node.carries || R == 0) continue;
     const auto row = std::find_if(profile.begin(), profile.end(), [&](const ProfileRow &at) {

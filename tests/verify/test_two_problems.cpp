@@ -29,8 +29,8 @@ Scene sticking_scene()
 class Interruption : public Observer
 {
 public:
-  PetscErrorCode Start(Problem &) override { return 0; }
-  PetscErrorCode Step(Problem &, const StepReport &) override
+  PetscErrorCode Start(const Problem &) override { return 0; }
+  PetscErrorCode Step(const Problem &, const StepReport &) override
   {
     if (++steps == 3) run(sticking_scene(), problem, recorder);
     return 0;
@@ -88,10 +88,10 @@ TEST(two_problems, EndInTheSameState)
   run(viscoelastic_scene(), alone, a);
   run(sticking_scene(), other, c);
   run(viscoelastic_scene(), again, b);
-  EXPECT_EQ(Probe::values(alone.state.U), Probe::values(again.state.U));
-  EXPECT_EQ(alone.state.history, again.state.history);
-  EXPECT_EQ(alone.state.dissipated, again.state.dissipated);
-  EXPECT_GT(alone.state.dissipated, 0);
+  EXPECT_EQ(Probe::values(alone.stepper.state.U), Probe::values(again.stepper.state.U));
+  EXPECT_EQ(alone.stepper.state.history, again.stepper.state.history);
+  EXPECT_EQ(alone.stepper.state.dissipated, again.stepper.state.dissipated);
+  EXPECT_GT(alone.stepper.state.dissipated, 0);
 }
 
 } // namespace tribogel::test

@@ -18,10 +18,10 @@ class EnergyWatch : public Observer
 {
 public:
   std::vector<double> stored;
-  PetscErrorCode Start(Problem &) override { return 0; }
-  PetscErrorCode Step(Problem &problem, const StepReport &report) override
+  PetscErrorCode Start(const Problem &) override { return 0; }
+  PetscErrorCode Step(const Problem &problem, const StepReport &report) override
   {
-    if (report.ends_phase) stored.push_back(problem.state.stored);
+    if (report.ends_phase) stored.push_back(problem.stepper.state.stored);
     return 0;
   }
 };
@@ -38,29 +38,31 @@ void inspect(Problem &problem, Outcome &outcome)
 {
   Vec U, Udot;
   const PetscScalar *u, *rate;
-  ASSERT_EQ(DMGetLocalVector(problem.mesh.dm, &U), 0);
-  ASSERT_EQ(DMGetLocalVector(problem.mesh.dm, &Udot), 0);
-  ASSERT_EQ(problem.LocalState(U, Udot), 0);
+  ASSERT_EQ(DMGetLocalVector(problem.system.mesh.dm, &U), 0);
+  ASSERT_EQ(DMGetLocalVector(problem.system.mesh.dm, &Udot), 0);
+  ASSERT_EQ(problem.stepper.LocalState(U, Udot), 0);
   ASSERT_EQ(VecGetArrayRead(U, &u), 0);
   ASSERT_EQ(VecGetArrayRead(Udot, &rate), 0);
-  const Scene &scene = problem.scene;
-  const double travel = problem.phase().end_approach;
+  const Scene &scene = problem.system.scene;
+  const double travel = problem.stepper.phase().end_approach;
   outcome.beyond = 0;
-  for (const Node &node : problem.mesh.nodes) {
+  for (const Node &node : problem.system.mesh.nodes) {
     const double z = node.X[1] + u[node.displacement + 2]; // in the frame of the body's plate
     const double top = scene.has_top() ? scene.top.height + scene.initial_gap : -travel;
     outcome.beyond = std::max({outcome.beyond, -scene.bottom.height - z, z - top});
   }
   outcome.wall_force = 0;
-  if (problem.contact) {
+  if (problem.system.contact) {
     ContactResults results;
-    ASSERT_EQ(problem.contact->Results(problem.frames(problem.state.time, 1), u, rate, results), 0);
+    ASSERT_EQ(problem.system.contact->Results(problem.stepper.plates(problem.stepper.state.time, 1), u, rate,
+                                              results),
+              0);
     outcome.wall_force = -results.wall.force[2];
   }
   ASSERT_EQ(VecRestoreArrayRead(Udot, &rate), 0);
   ASSERT_EQ(VecRestoreArrayRead(U, &u), 0);
-  ASSERT_EQ(DMRestoreLocalVector(problem.mesh.dm, &Udot), 0);
-  ASSERT_EQ(DMRestoreLocalVector(problem.mesh.dm, &U), 0);
+  ASSERT_EQ(DMRestoreLocalVector(problem.system.mesh.dm, &Udot), 0);
+  ASSERT_EQ(DMRestoreLocalVector(problem.system.mesh.dm, &U), 0);
 }
 
 Outcome outcome_of(const Scene &scene)

@@ -29,11 +29,7 @@ template <class T> struct AdsorptionViscousFriction : NumbersOf<T, 4> {
           .fallback = "0",
           .unit = "MPa s/mm",
           .meaning = "c, of the layer over its height"},
-         {.name = "pressure_floor",
-          .fallback = "1e-5",
-          .unit = "MPa",
-          .meaning = "below it a parabola leads tau to 0",
-          .lowest_excluded = true}},
+         pressure_floor_parameter("below it a parabola leads tau to 0")},
         "adsorption_viscous"};
     return all;
   }

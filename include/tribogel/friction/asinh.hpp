@@ -21,16 +21,8 @@ template <class T> struct AsinhFriction : NumbersOf<T, 4> {
         "activated processes (Eyring); of gels a stress that grows with log v is reported",
         {{.name = "coefficient", .fallback = "", .unit = "MPa^(1-a)", .meaning = "k"},
          {.name = "speed", .fallback = "", .unit = "mm/s", .meaning = "v_0", .lowest_excluded = true},
-         {.name = "pressure_exponent",
-          .fallback = "1",
-          .unit = "-",
-          .meaning = pressure_exponent_meaning,
-          .highest = 1},
-         {.name = "pressure_floor",
-          .fallback = "1e-5",
-          .unit = "MPa",
-          .meaning = pressure_floor_meaning,
-          .lowest_excluded = true}},
+         pressure_exponent_parameter(),
+         pressure_floor_parameter()},
         "asinh"};
     return all;
   }

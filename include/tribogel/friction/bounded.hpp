@@ -21,11 +21,7 @@ template <class T> struct BoundedFriction : NumbersOf<T, 4> {
         {{.name = "coefficient", .fallback = "", .unit = "-", .meaning = "mu"},
          {.name = "cohesion", .fallback = "0", .unit = "MPa", .meaning = "c"},
          {.name = "stress", .fallback = "", .unit = "MPa", .meaning = "tau_max", .lowest_excluded = true},
-         {.name = "pressure_floor",
-          .fallback = "1e-5",
-          .unit = "MPa",
-          .meaning = "below it a parabola leads c to 0",
-          .lowest_excluded = true}},
+         pressure_floor_parameter("below it a parabola leads c to 0")},
         "bounded"};
     return all;
   }

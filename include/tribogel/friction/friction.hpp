@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -54,46 +55,65 @@ public:
 
   bool linear_in_pressure() const { return !one || one->linear_in_pressure(); }
   bool has_steep_part() const { return one && one->has_steep_part(); }
+  bool has_memory() const { return one && one->has_memory(); }
+
+  /// The same law as a place meets it that remembers `start`, within a solve.
+  Friction remembering(double start, const StepWeights &weights) const
+  {
+    Friction there = *this;
+    there.memory = {start, weights};
+    return there;
+  }
+
+  /// What that place remembers after the solve, if it has slid at v.
+  double memory_after(double v) const { return one->memory_after(v, memory); }
 
   // The parts of tau (law.hpp); p and v are double or Dual.
 
   template <class S> S threshold(const S &p) const
   {
     if (!one) return S(0);
-    return lifted(one->threshold(value(p)), S(0), p);
+    return lifted(one->threshold(value(p), memory), S(0), p);
   }
 
   template <class S> S drag(const S &v, const S &p) const
   {
     if (!one) return S(0);
-    return lifted(one->drag(value(v), value(p)), v, p);
+    return lifted(one->drag(value(v), value(p), memory), v, p);
   }
 
   template <class S> S steep(const S &v, const S &p) const
   {
     if (!has_steep_part() || value(v) == 0) return S(0);
-    return lifted(one->steep(value(v), value(p)), v, p);
+    return lifted(one->steep(value(v), value(p), memory), v, p);
   }
 
   /// Solved in double; a step of Newton's method from there gives the derivatives, exactly.
   template <class S> S steep_speed(const S &stress, const S &drag, const S &p) const
   {
     const double q = value(p);
-    const double v = one->steep_speed(value(stress), value(drag), q);
-    if (v == 0) return S(0);
-    const LawValue at = one->steep(v, q);
+    const double v = one->steep_speed(value(stress), value(drag), q, memory);
+    if (v < std::numeric_limits<double>::min()) return S(0); // 1 / v would overflow
+    const LawValue at = one->steep(v, q, memory);
     const S residual = at.value + at.d_p * (p - q) + drag * v - stress;
     return v - residual / (at.d_v + value(drag));
+  }
+
+  /// A bound of -d steep / d v (law.hpp).
+  template <class S> S steepest_fall(const S &p) const
+  {
+    if (!has_memory()) return S(0);
+    return lifted(one->steepest_fall(value(p), memory), S(0), p);
   }
 
   /// d tau / d v at v > 0 [MPa s/mm]; 0 where nothing is left of it but round-off.
   double slope(double v, double p) const
   {
     if (!one) return 0;
-    const LawValue drag = one->drag(v, p);
-    const double sum = drag.value + v * drag.d_v + (has_steep_part() ? one->steep(v, p).d_v : 0);
+    const LawValue drag = one->drag(v, p, memory);
+    const double sum = drag.value + v * drag.d_v + (has_steep_part() ? one->steep(v, p, memory).d_v : 0);
     const double round_off = 16 * std::numeric_limits<double>::epsilon() *
-                             (std::abs(drag.value) + (v > 0 ? one->threshold(p).value / v : 0));
+                             (std::abs(drag.value) + (v > 0 ? one->threshold(p, memory).value / v : 0));
     return std::abs(sum) > round_off ? sum : 0;
   }
 
@@ -102,8 +122,8 @@ public:
   {
     if (!one) return 0;
     const double pressure = linear_in_pressure() ? 1 : p;
-    const LawValue at_rest = one->threshold(pressure), drag = one->drag(v, pressure);
-    const LawValue steep = has_steep_part() && v > 0 ? one->steep(v, pressure) : LawValue{};
+    const LawValue at_rest = one->threshold(pressure, memory), drag = one->drag(v, pressure, memory);
+    const LawValue steep = has_steep_part() && v > 0 ? one->steep(v, pressure, memory) : LawValue{};
     if (pressure == 0) return at_rest.d_p + steep.d_p + v * drag.d_p;
     return (at_rest.value + steep.value + v * drag.value) / pressure;
   }
@@ -118,6 +138,7 @@ private:
   }
 
   std::shared_ptr<const FrictionLaw> one;
+  LawMemory memory; ///< without `remembering`: of steady sliding
 };
 
 } // namespace tribogel

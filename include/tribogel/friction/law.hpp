@@ -14,6 +14,8 @@
 /// of other quantities through by the chain rule.
 #pragma once
 
+#include "tribogel/math/step_weights.hpp"
+
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -27,6 +29,12 @@ struct LawValue {
   double value = 0;
   double d_v = 0; ///< with respect to v [... s/mm]
   double d_p = 0; ///< with respect to p [... / MPa]
+};
+
+/// What a law with memory is told; the others do not look at it.
+struct LawMemory {
+  double start = 0; ///< the number that it remembers, where the solve starts
+  StepWeights weights{std::numeric_limits<double>::infinity()};
 };
 
 /// The three parts' slopes with respect to one parameter, in units of the part over that of the parameter.
@@ -82,25 +90,44 @@ public:
   virtual const LawDeclaration &declaration() const = 0;
   virtual LawValues values() const = 0;
 
-  virtual LawValue threshold(double p) const = 0;       ///< >= 0 [MPa]
-  virtual LawValue drag(double v, double p) const = 0;  ///< finite at v = 0 [MPa s/mm]
-  virtual LawValue steep(double v, double p) const = 0; ///< v > 0 [MPa]
+  virtual LawValue threshold(double p, const LawMemory & = {}) const = 0;      ///< >= 0 [MPa]
+  virtual LawValue drag(double v, double p, const LawMemory & = {}) const = 0; ///< finite at v = 0 [MPa s/mm]
+  virtual LawValue steep(double v, double p, const LawMemory & = {}) const = 0; ///< v > 0 [MPa]
 
   /// The v >= 0 that solves steep(v, p) + drag v = stress, for stress, drag > 0; 0 where it underflows. Only
-  /// for a law with a steep part.
-  virtual double steep_speed(double stress, double drag, double p) const = 0;
+  /// for a law with a steep part; the sum must rise with v.
+  virtual double steep_speed(double stress, double drag, double p, const LawMemory & = {}) const = 0;
   virtual bool has_steep_part() const = 0;
+
+  // Of a law with memory.
+
+  virtual bool has_memory() const { return false; }
+
+  /// Of a contact that has just been made.
+  virtual double initial_memory() const { return 0; }
+
+  /// What it remembers after sliding at v, where StepWeights::reach says.
+  virtual double memory_after(double v, const LawMemory &) const = 0;
+
+  /// A bound of -d steep / d v at all speeds within a solve that does not go on for ever [MPa s/mm], >= 0.
+  virtual LawValue steepest_fall(double p, const LawMemory &) const = 0;
+
+  /// How fast it forgets a disturbance at a constant speed [1/s].
+  virtual double memory_rate(double v) const = 0;
 
   /// Is tau proportional to p? Then it is the same per reference and per current area.
   virtual bool linear_in_pressure() const = 0;
 
-  /// Can tau fall with v, or be negative, at any speed?
+  /// Can tau of steady sliding fall with v, or be negative, at any speed?
   virtual bool may_fall() const = 0;
 
+  /// Does tau of steady sliding keep a value other than 0 as v -> 0?
+  virtual bool holds_at_rest() const = 0;
+
   /// Slopes of the parts at (v, p), v > 0 if there is a steep one, with respect to entry `entry` of parameter
-  /// `parameter`.
-  virtual LawParameterSlope parameter_slope(std::size_t parameter, std::size_t entry, double v,
-                                            double p) const = 0;
+  /// `parameter`, what is remembered at the start fixed.
+  virtual LawParameterSlope parameter_slope(std::size_t parameter, std::size_t entry, double v, double p,
+                                            const LawMemory & = {}) const = 0;
 
   /// The law with its numbers, for people to read.
   virtual std::string in_numbers() const = 0;

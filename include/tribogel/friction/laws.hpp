@@ -10,6 +10,7 @@
 #include "tribogel/friction/plateau.hpp"
 #include "tribogel/friction/polynomial.hpp"
 #include "tribogel/friction/power.hpp"
+#include "tribogel/friction/rate_and_state.hpp"
 #include "tribogel/friction/stribeck.hpp"
 #include "tribogel/friction/table.hpp"
 
@@ -53,6 +54,7 @@ inline const std::vector<KnownLaw> &known_laws()
       AdsorptionViscousFriction,
       AsinhFriction,
       BoundedFriction,
+      RateAndStateFriction,
       TableFriction
   >();
   // clang-format on

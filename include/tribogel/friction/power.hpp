@@ -24,16 +24,8 @@ template <class T> struct PowerFriction : NumbersOf<T, 5> {
           .fallback = "0",
           .unit = "mm/s",
           .meaning = "v_0; above 0 the slope at rest is finite, and k p^a v_0^n is what a stick holds"},
-         {.name = "pressure_exponent",
-          .fallback = "1",
-          .unit = "-",
-          .meaning = pressure_exponent_meaning,
-          .highest = 1},
-         {.name = "pressure_floor",
-          .fallback = "1e-5",
-          .unit = "MPa",
-          .meaning = pressure_floor_meaning,
-          .lowest_excluded = true}},
+         pressure_exponent_parameter(),
+         pressure_floor_parameter()},
         "power"};
     return all;
   }

@@ -12,6 +12,7 @@
 /// factor a).
 #pragma once
 
+#include "tribogel/friction/law.hpp"
 #include "tribogel/math/dual.hpp"
 
 #include <cmath>
@@ -49,10 +50,25 @@ template <class S> S power_of_speed(const S &v, double e)
   return value(v) == 0 ? S(0) : S(pow(v, e));
 }
 
-/// Parameters of every law with such a dependence.
-inline constexpr const char *pressure_exponent_meaning =
-    "a in |traction| = mu p^a, both per current area, p in MPa";
-inline constexpr const char *pressure_floor_meaning =
-    "with a < 1: below it a parabola replaces p^a, whose slope at 0 is infinite";
+/// Parameters of every law with such a dependence; `source` is that of the exponent's default, `meaning` what
+/// happens below the floor.
+inline LawParameter pressure_exponent_parameter(const char *source = "own")
+{
+  return {.name = "pressure_exponent",
+          .fallback = "1",
+          .unit = "-",
+          .meaning = "a in |traction| = mu p^a, both per current area, p in MPa",
+          .highest = 1,
+          .source = source};
+}
+inline LawParameter pressure_floor_parameter(
+    const char *meaning = "with a < 1: below it a parabola replaces p^a, whose slope at 0 is infinite")
+{
+  return {.name = "pressure_floor",
+          .fallback = "1e-5",
+          .unit = "MPa",
+          .meaning = meaning,
+          .lowest_excluded = true};
+}
 
 } // namespace tribogel

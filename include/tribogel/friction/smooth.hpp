@@ -4,6 +4,7 @@
 #include "tribogel/math/dual.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace tribogel
 {
@@ -61,6 +62,15 @@ template <class S> S asinh_over(const S &x)
     power *= t * t;
   }
   return smooth::with_slope(x, f, slope);
+}
+
+/// asinh(exp(x)), where exp(x) may overflow or underflow.
+template <class S> S asinh_of_exp(const S &x)
+{
+  constexpr double far = 20; // beyond it exp(-2 far) is less than round-off
+  const double t = value(x), e = std::exp(t < 0 ? t : -t);
+  const double f = t > far ? t + std::numbers::ln2 : t < -far ? e : std::asinh(std::exp(t));
+  return smooth::with_slope(x, f, (t < 0 ? e : 1) / std::sqrt(1 + e * e));
 }
 
 /// [(1 + x)^n - 1] / x, n at x = 0; x >= 0. X and N are double or Dual.

@@ -1,5 +1,5 @@
-/// What is simulated, and how it is discretised: a plain value, built from options by the program and by hand in tests. Units mm, N, s,
-/// MPa, rad. The defaults are the paper's rheometer as src/PAPER.md reads it.
+/// What is simulated, and how it is discretised: a plain value, built from options by the program and by hand
+/// in tests. Units mm, N, s, MPa, rad. The defaults are the paper's rheometer as src/PAPER.md reads it.
 #pragma once
 
 #include "tribogel/friction/friction.hpp"

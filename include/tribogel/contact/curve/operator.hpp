@@ -169,9 +169,10 @@ inline MortarReport CurveContact::update(const ContactState<double> &state, Face
   return report;
 }
 
-inline void CurveContact::node(int a, const Friction &law, NodeBlock &block) const
+inline void CurveContact::node(int a, const Friction &any, NodeBlock &block) const
 {
   if (!geometry.nodes[a].carries) return without_multiplier(a, block);
+  const Friction law = now.friction_at(a, any);
   const NodeContact<double> contact = contact_of(a, law);
   const Vector3<double> &lambda = now.multiplier[a];
   const auto values = node_residual<double>(geometry, a, contact, lambda, now.stick_rate, law);
@@ -252,9 +253,10 @@ inline bool CurveContact::is_folded(int f) const
   return geometry.slave_chain.facet_nodes == 2 ? ends.operator()<2>() : ends.operator()<3>();
 }
 
-inline NodeResult CurveContact::result(int a, const Friction &law) const
+inline NodeResult CurveContact::result(int a, const Friction &any) const
 {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const Friction law = now.friction_at(a, any);
   const auto &constants = geometry.nodes[a];
   const Vector3<double> none = Vector3<double>::Constant(nan);
   if (!constants.carries)

@@ -109,6 +109,16 @@ Vector3<T> drag_at(const Vector3<T> &v, const T &area_ratio, const T &cauchy, co
   return area_ratio * over_speed * v;
 }
 
+/// c_T, or more where the law remembers and may fall.
+template <class T, FrictionFor<T> Law>
+T tangential_scale(const ContactScale &scale, const T &area_ratio, const T &cauchy, const Law &law)
+{
+  T c_T = scale.tangential;
+  if constexpr (requires { law.steepest_fall(cauchy); })
+    if (law.has_memory()) c_T += 2 * area_ratio * law.steepest_fall(cauchy);
+  return c_T;
+}
+
 /// `on_axis`: on the axis of an axisymmetric model every tangential quantity vanishes; C_T = lambda_T there.
 template <class T, FrictionFor<T> Law>
 ContactCondition<T> contact_condition(const ContactPoint<T> &at, const ContactScale &scale, const Law &law,
@@ -129,7 +139,7 @@ ContactCondition<T> contact_condition(const ContactPoint<T> &at, const ContactSc
     return {lambda_T + drag_at<T>(v, J, cauchy, law) - C_N * at.normal,
             moves ? ContactStatus::slip : ContactStatus::stick};
   }
-  const T drag = J * law.drag(robust_norm(v), cauchy), c_T = scale.tangential;
+  const T drag = J * law.drag(robust_norm(v), cauchy), c_T = tangential_scale<T>(scale, J, cauchy, law);
   const bool dragged = value(drag) > 0;
   const T k = dragged ? T(c_T + drag) : c_T;
   const Vector3<T> lambda_c = lambda_T + drag * v;
@@ -141,7 +151,7 @@ ContactCondition<T> contact_condition(const ContactPoint<T> &at, const ContactSc
   if (value(magnitude) > value(b)) {
     const T speed = steep ? T(law.steep_speed(T((magnitude - b) / J), T(k / J), cauchy)) : T(0);
     const T strength = steep ? T(b + J * law.steep(speed, cauchy)) : b;
-    if (steep && value(k) * value(speed) < value(strength))
+    if (steep && (value(speed) == 0 || value(k) * value(speed) < value(strength)))
       C_T = k * (v + (speed / magnitude) * s); // the same without the cancellation of lambda_c and s
     else
       C_T -= (strength / magnitude) * s;

@@ -1,6 +1,7 @@
 /// What the contact operators of both models are told of the present: nodal unknowns and the plates' motions.
 #pragma once
 
+#include "tribogel/friction/friction.hpp"
 #include "tribogel/math/tensor.hpp"
 
 #include <array>
@@ -30,6 +31,16 @@ template <class T> struct ContactState {
   /// of one step must be given the same value. 0 where the velocity is given: steady states of the half
   /// plane.
   double stick_rate = 1;
+  /// Of each slave node: what its friction law remembers where the solve starts; empty for a law without
+  /// memory.
+  std::vector<double> memory;
+  StepWeights weights{0};
+
+  /// The law as slave node a meets it.
+  Friction friction_at(int a, const Friction &law) const
+  {
+    return memory.empty() ? law : law.remembering(memory[static_cast<std::size_t>(a)], weights);
+  }
 };
 
 } // namespace tribogel

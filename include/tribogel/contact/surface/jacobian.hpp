@@ -17,7 +17,8 @@ template <class Emit> void SurfaceContact::jacobian(const Friction &law, const E
       continue;
     }
     const NodeContact contact = contact_of(a, !law.linear_in_pressure(), true);
-    slope[a] = geometry.nodes[a].weight() * condition_slope<11>(point_of(a, contact), scale_of(a), law);
+    slope[a] = geometry.nodes[a].weight() *
+               condition_slope<11>(point_of(a, contact), scale_of(a), now.friction_at(a, law));
     emit_node(a, contact, slope[a], emit);
   }
   for (std::size_t f = 0; f < facets.size(); ++f)

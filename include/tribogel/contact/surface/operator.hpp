@@ -329,7 +329,8 @@ inline void SurfaceContact::node(int a, const Friction &law, NodeBlock &block) c
     return;
   }
   const NodeContact contact = contact_of(a, !law.linear_in_pressure(), false);
-  const auto condition = contact_condition<double>(point_of(a, contact), scale_of(a), law);
+  const auto condition =
+      contact_condition<double>(point_of(a, contact), scale_of(a), now.friction_at(a, law));
   const Vector3<double> on_master = placed.R.transpose() * lambda;
   const auto on = shares(a);
   const auto slaves = static_cast<Eigen::Index>(on.size()),
@@ -356,7 +357,8 @@ inline NodeResult SurfaceContact::result(int a, const Friction &law) const
   const Vector3<double> &lambda = now.multiplier[a], &n = normal[a].n;
   const double area = contact.area.value;
   const Vector3<double> cauchy = constants.weight() / area * lambda;
-  const auto condition = contact_condition<double>(point_of(a, contact), scale_of(a), law);
+  const auto condition =
+      contact_condition<double>(point_of(a, contact), scale_of(a), now.friction_at(a, law));
   const Matrix3<double> own = turned(-std::atan2(placed.x[a][1], placed.x[a][0])); // to (r, theta, z)
   return {true,         condition.status, constants.weight(),
           area,         contact.gap,      -cauchy.dot(n),

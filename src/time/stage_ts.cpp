@@ -1,6 +1,6 @@
-#include "solve/two_stage_ts.hpp"
+#include "time/stage_ts.hpp"
 
-#include "solve/problem.hpp"
+#include "support/petsc_handles.hpp"
 #include "tribogel/math/sdirk2.hpp"
 
 #include <petsc/private/tsimpl.h> // PETSc 3.18 has no other way to add a type
@@ -14,20 +14,21 @@ namespace
 {
 
 /// Vectors of the step at hand: U_n, the stage's solution and rate, and where the rate is counted from.
-struct TwoStageData {
+struct StageData {
+  StageOwner *owner = nullptr;
   VecHandle before, U, rate, base;
   double shift = 0; ///< d rate/dU [1/s]
   double time = 0;  ///< of the stage [s]
 };
 
-TwoStageData &data_of(TS ts)
+StageData &data_of(TS ts)
 {
-  return *static_cast<TwoStageData *>(ts->data);
+  return *static_cast<StageData *>(ts->data);
 }
 
 PetscErrorCode SetUp(TS ts)
 {
-  TwoStageData &data = data_of(ts);
+  StageData &data = data_of(ts);
   PetscFunctionBegin;
   for (VecHandle *v : {&data.before, &data.U, &data.rate, &data.base})
     if (!static_cast<Vec>(*v)) PetscCall(VecDuplicate(ts->vec_sol, v->put()));
@@ -41,21 +42,24 @@ PetscErrorCode SetUp(TS ts)
 PetscErrorCode Reset(TS ts)
 {
   PetscFunctionBegin;
-  data_of(ts) = {};
+  StageData &data = data_of(ts);
+  StageOwner *const owner = data.owner;
+  data = {};
+  data.owner = owner;
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode Destroy(TS ts)
 {
   PetscFunctionBegin;
-  delete static_cast<TwoStageData *>(ts->data);
+  delete static_cast<StageData *>(ts->data);
   ts->data = nullptr;
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode StageFunction(SNES, Vec U, Vec F, TS ts)
 {
-  TwoStageData &data = data_of(ts);
+  StageData &data = data_of(ts);
   PetscFunctionBegin;
   PetscCall(VecAXPBYPCZ(data.rate, data.shift, -data.shift, 0, U, data.base));
   PetscCall(TSComputeIFunction(ts, data.time, U, data.rate, F, PETSC_FALSE));
@@ -65,7 +69,7 @@ PetscErrorCode StageFunction(SNES, Vec U, Vec F, TS ts)
 /// At the U, and so with the rate, of the last StageFunction: SNES guarantees it.
 PetscErrorCode StageJacobian(SNES, Vec U, Mat A, Mat P, TS ts)
 {
-  TwoStageData &data = data_of(ts);
+  StageData &data = data_of(ts);
   PetscFunctionBegin;
   PetscCall(TSComputeIJacobian(ts, data.time, U, data.rate, data.shift, A, P, PETSC_FALSE));
   PetscFunctionReturn(0);
@@ -74,7 +78,7 @@ PetscErrorCode StageJacobian(SNES, Vec U, Mat A, Mat P, TS ts)
 /// From data.base to data.time, with data.U as what is known of it.
 PetscErrorCode SolveStage(TS ts, int stage, PetscBool &solved)
 {
-  TwoStageData &data = data_of(ts);
+  StageData &data = data_of(ts);
   PetscInt newton, linear;
   PetscFunctionBegin;
   PetscCall(SNESSolve(ts->snes, nullptr, data.U));
@@ -90,35 +94,35 @@ PetscErrorCode SolveStage(TS ts, int stage, PetscBool &solved)
 
 PetscErrorCode SolveStages(TS ts, PetscBool &solved)
 {
-  TwoStageData &data = data_of(ts);
-  Problem *problem;
+  StageData &data = data_of(ts);
+  StageOwner &owner = *data.owner;
+  const int stages = owner.stages();
   bool rings;
   PetscFunctionBegin;
-  PetscCall(TSGetApplicationContext(ts, &problem));
-  const double length = sdirk2::gamma * ts->time_step;
+  const double length = stages == 2 ? sdirk2::gamma * ts->time_step : ts->time_step;
   data.shift = 1 / length;
   PetscCall(VecCopy(data.before, data.base));
-  for (int stage = 0; stage < 2; ++stage) {
+  for (int stage = 0; stage < stages; ++stage) {
     data.time = ts->ptime + (stage == 0 ? length : ts->time_step);
     if (stage == 1) // U_n + reach (U_1 - U_n)
       PetscCall(VecAXPBYPCZ(data.base, sdirk2::reach, 1 - sdirk2::reach, 0, data.U, data.before));
-    PetscCall(problem->BeginStage(stage, data.time));
+    PetscCall(owner.BeginStage(stage, data.time));
     PetscCall(SolveStage(ts, stage, solved));
     if (!solved) PetscFunctionReturn(0);
-    PetscCall(problem->EndStage(stage, data.U));
+    PetscCall(owner.EndStage(stage, data.U));
   }
-  PetscCall(problem->Rings(rings));
+  if (stages == 1) PetscFunctionReturn(0);
+  PetscCall(owner.Rings(rings));
   if (!rings) PetscFunctionReturn(0);
-  PetscCall(VecCopy(problem->stage.U, data.base));
+  PetscCall(owner.DampStage(data.base));
   data.shift = 1 / (ts->time_step - length);
-  PetscCall(problem->DampStage());
   PetscCall(SolveStage(ts, 1, solved));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode Step(TS ts)
 {
-  TwoStageData &data = data_of(ts);
+  StageData &data = data_of(ts);
   PetscInt rejections = 0;
   PetscBool accepted = PETSC_TRUE; // what TSAdapt wants to know: no attempt has failed yet
   PetscFunctionBegin;
@@ -153,6 +157,14 @@ PetscErrorCode RollBack(TS ts)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode EvaluateError(TS ts, NormType, PetscInt *order, PetscReal *error)
+{
+  PetscFunctionBegin;
+  if (order) *order = 2; // the power of the step with which the error grows
+  PetscCall(data_of(ts).owner->EstimateError(*error));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode Create(TS ts)
 {
   PetscFunctionBegin;
@@ -161,21 +173,29 @@ PetscErrorCode Create(TS ts)
   ts->ops->destroy = Destroy;
   ts->ops->step = Step;
   ts->ops->rollback = RollBack;
+  ts->ops->evaluatewlte = EvaluateError;
   ts->ops->snesfunction = StageFunction;
   ts->ops->snesjacobian = StageJacobian;
   ts->default_adapt_type = TSADAPTBASIC;
   ts->usessnes = PETSC_TRUE;
-  ts->data = std::make_unique<TwoStageData>().release();
+  ts->data = std::make_unique<StageData>().release();
   PetscFunctionReturn(0);
 }
 
 } // namespace
 
-PetscErrorCode RegisterTwoStageTs()
+PetscErrorCode SetStageType(TS ts, StageOwner &owner)
 {
   PetscFunctionBegin;
-  PetscCall(TSRegister(two_stage_ts, Create));
+  PetscCall(TSRegister(stage_ts, Create));
+  PetscCall(TSSetType(ts, stage_ts));
+  data_of(ts).owner = &owner;
   PetscFunctionReturn(0);
+}
+
+PetscInt rejections_allowed(TS ts)
+{
+  return ts->max_reject;
 }
 
 } // namespace tribogel

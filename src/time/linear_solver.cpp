@@ -1,5 +1,5 @@
 /// The linear solver under Newton: a direct one unless options say otherwise.
-#include "solve/problem.hpp"
+#include "time/stepper.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ PetscInt factorisation_cost(const Mesh &mesh)
 /// A direct solver in the half plane and for small bodies, multigrid for larger ones, but not where nodes are
 /// held in some directions only (no rigid motions to coarsen by; a punch with K/G = 1000 and planes of
 /// symmetry failed). Options have the last word.
-PetscErrorCode Problem::SetUpLinearSolver(SNES snes)
+PetscErrorCode Stepper::SetUpLinearSolver(SNES snes)
 {
   KSP ksp;
   PC pc;
@@ -91,7 +91,7 @@ constexpr double first_strict_tolerance =
 
 } // namespace
 
-PetscErrorCode Problem::ChooseTolerance(SNES snes)
+PetscErrorCode Stepper::ChooseTolerance(SNES snes)
 {
   KSP ksp;
   PetscInt iteration;
@@ -119,7 +119,7 @@ PetscErrorCode Problem::ChooseTolerance(SNES snes)
 /// so transients have a strict one. (Where the steps' length is given there is no such estimate:
 /// two_cylinders.opts, 37,707 unknowns, took 17 linear iterations a Newton iteration, but 32 of these for
 /// three of its four steps, where exact solves need 34 for all.)
-PetscErrorCode Problem::HookLinearSolver(SNES snes)
+PetscErrorCode Stepper::HookLinearSolver(SNES snes)
 {
   KSP ksp;
   PC pc;
@@ -132,7 +132,7 @@ PetscErrorCode Problem::HookLinearSolver(SNES snes)
   PetscCall(PetscOptionsHasName(nullptr, nullptr, "-ksp_rtol", &given[0]));
   PetscCall(PetscOptionsHasName(nullptr, nullptr, "-snes_ksp_ew", &given[1]));
   if (given[0] || given[1]) PetscFunctionReturn(0);
-  forcing.rule = direct || !steady() ? Forcing::strict : Forcing::loose;
+  forcing.rule = direct || !system.steady() ? Forcing::strict : Forcing::loose;
   PetscFunctionReturn(0);
 }
 

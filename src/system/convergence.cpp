@@ -1,7 +1,7 @@
 /// When is a residual small? Each group of rows is held against the forces that meet in it, and against the
 /// round-off that these forces carry: no dimension enters, and a body without load (no force to be relative
 /// to) converges too.
-#include "solve/problem.hpp"
+#include "system/system.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,18 +20,28 @@ constexpr double round_off_allowance = 16;
 
 /// Forces that meet the convergence test of a body without load leave N, T and the strains that uncertain.
 /// What the error estimates find below that is no error of a step.
-PetscErrorCode Problem::MeasureRoundOff()
+PetscErrorCode System::MeasureRoundOff()
 {
+  Vec local;
+  PetscScalar *values;
   const PetscScalar *floors;
-  double sums[4] = {0, 0, 0, static_cast<double>(state.history.size())};
+  double sums[4] = {0, 0, 0, static_cast<double>(bulk->InitialHistory().size())};
   PetscFunctionBeginUser;
-  PetscCall(VecGetArrayRead(round_off, &floors));
-  for (std::size_t k = 0; k < group.size(); ++k)
-    if (group[k] < 3) sums[static_cast<std::size_t>(group[k])] += floors[k] * floors[k];
-  PetscCall(VecRestoreArrayRead(round_off, &floors));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM,
-                             PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(round_off)))));
-  least_loads = {round_off_allowance * std::sqrt(sums[2]),
+  PetscCall(DMGetLocalVector(mesh.dm, &local));
+  PetscCall(VecZeroEntries(local));
+  PetscCall(VecGetArray(local, &values));
+  bulk->AddRoundOff(values);
+  if (contact) contact->AddRoundOff(values);
+  PetscCall(VecRestoreArray(local, &values));
+  PetscCall(VecZeroEntries(rows.round_off));
+  PetscCall(DMLocalToGlobal(mesh.dm, local, ADD_VALUES, rows.round_off));
+  PetscCall(DMRestoreLocalVector(mesh.dm, &local));
+  PetscCall(VecGetArrayRead(rows.round_off, &floors));
+  for (std::size_t k = 0; k < rows.group.size(); ++k)
+    if (rows.group[k] < 3) sums[static_cast<std::size_t>(rows.group[k])] += floors[k] * floors[k];
+  PetscCall(VecRestoreArrayRead(rows.round_off, &floors));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, comm()));
+  least.loads = {round_off_allowance * std::sqrt(sums[2]),
                  round_off_allowance * std::sqrt(sums[0] + sums[1]) * scene.twist_length()};
   double bulk_over_shear = 0;
   for (const Specimen *gel : scene.gels()) {
@@ -39,12 +49,12 @@ PetscErrorCode Problem::MeasureRoundOff()
     bulk_over_shear = std::max(bulk_over_shear, spring.bulk_modulus / spring.shear_modulus());
   }
   constexpr double eps = std::numeric_limits<double>::epsilon();
-  least_strain = round_off_allowance * eps * bulk_over_shear * std::sqrt(sums[3]);
+  least.strain = round_off_allowance * eps * bulk_over_shear * std::sqrt(sums[3]);
   PetscFunctionReturn(0);
 }
 
 /// The node of the largest entry in the worst group, for messages.
-PetscErrorCode Problem::LocateWorst(const double *f)
+PetscErrorCode System::LocateWorst(const double *f, WorstResidual &worst) const
 {
   struct {
     double size;
@@ -53,47 +63,42 @@ PetscErrorCode Problem::LocateWorst(const double *f)
   std::size_t place = 0;
   PetscMPIInt rank;
   PetscFunctionBeginUser;
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm)));
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCallMPI(MPI_Comm_rank(comm(), &rank));
   peak.rank = rank;
-  for (std::size_t k = 0; k < group.size(); ++k)
-    if (group[k] == worst.group && std::abs(f[k]) > peak.size) {
+  for (std::size_t k = 0; k < rows.group.size(); ++k)
+    if (rows.group[k] == worst.group && std::abs(f[k]) > peak.size) {
       peak.size = std::abs(f[k]);
       place = k;
     }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &peak, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &peak, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm()));
   if (rank == peak.rank) {
-    const Node &node = mesh.nodes[node_of_row[place]];
+    const Node &node = mesh.nodes[rows.node[place]];
     worst.X = node.X;
     worst.body = node.body;
   }
-  PetscCallMPI(MPI_Bcast(worst.X.data(), 3, MPI_DOUBLE, peak.rank, comm));
-  PetscCallMPI(MPI_Bcast(&worst.body, 1, MPI_INT, peak.rank, comm));
+  PetscCallMPI(MPI_Bcast(worst.X.data(), 3, MPI_DOUBLE, peak.rank, comm()));
+  PetscCallMPI(MPI_Bcast(&worst.body, 1, MPI_INT, peak.rank, comm()));
   PetscFunctionReturn(0);
 }
 
 /// Round-off is an excuse for what an iteration has left, not for making none: the start of a solve may be
 /// far off and its residual below the floor, which allows for all that may be lost.
-PetscErrorCode Problem::JudgeResidual(Vec F, bool has_iterated, bool &converged)
+PetscErrorCode System::JudgeResidual(Vec F, double tolerance, bool has_iterated, WorstResidual &worst,
+                                     bool &converged) const
 {
   const PetscScalar *f, *sizes, *floors;
-  PetscReal tolerance;
-  SNES snes;
   double sums[3 * residual_groups] = {};
   PetscFunctionBeginUser;
   PetscCall(VecGetArrayRead(F, &f));
-  PetscCall(VecGetArrayRead(magnitude, &sizes));
-  PetscCall(VecGetArrayRead(round_off, &floors));
-  for (std::size_t k = 0; k < group.size(); ++k) {
-    const int g = group[k];
+  PetscCall(VecGetArrayRead(rows.magnitude, &sizes));
+  PetscCall(VecGetArrayRead(rows.round_off, &floors));
+  for (std::size_t k = 0; k < rows.group.size(); ++k) {
+    const int g = rows.group[k];
     sums[3 * g] += f[k] * f[k];
     sums[3 * g + 1] += sizes[k] * sizes[k];
     sums[3 * g + 2] += floors[k] * floors[k];
   }
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(F));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3 * residual_groups, MPI_DOUBLE, MPI_SUM, comm));
-  PetscCall(TSGetSNES(ts, &snes));
-  PetscCall(SNESGetTolerances(snes, nullptr, &tolerance, nullptr, nullptr, nullptr));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3 * residual_groups, MPI_DOUBLE, MPI_SUM, comm()));
   double all = 0;
   for (int g = 0; g < residual_groups; ++g) all += sums[3 * g + 1];
   worst = {};
@@ -111,9 +116,9 @@ PetscErrorCode Problem::JudgeResidual(Vec F, bool has_iterated, bool &converged)
     }
   }
   converged = worst.ratio <= 1 && (has_iterated || !needs_the_floor);
-  if (worst.group >= 0 && !converged) PetscCall(LocateWorst(f));
-  PetscCall(VecRestoreArrayRead(round_off, &floors));
-  PetscCall(VecRestoreArrayRead(magnitude, &sizes));
+  if (worst.group >= 0 && !converged) PetscCall(LocateWorst(f, worst));
+  PetscCall(VecRestoreArrayRead(rows.round_off, &floors));
+  PetscCall(VecRestoreArrayRead(rows.magnitude, &sizes));
   PetscCall(VecRestoreArrayRead(F, &f));
   PetscFunctionReturn(0);
 }

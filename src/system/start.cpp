@@ -1,5 +1,5 @@
 /// What can be known of a scene before anything deforms.
-#include "solve/problem.hpp"
+#include "system/system.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -16,12 +16,12 @@ constexpr int scanned = 24;           ///< angles that are tried
 
 } // namespace
 
-PetscErrorCode Problem::JudgeStart(std::string &objection, std::vector<std::string> &doubts)
+PetscErrorCode System::JudgeStart(PlateFrames standing, std::string &objection,
+                                  std::vector<std::string> &doubts)
 {
   double lowest = 0, highest = 0, share = 0;
   PetscFunctionBeginUser;
   if (!contact || !contact->between_gels() || mesh.dim == 2) PetscFunctionReturn(0);
-  PlateFrames standing = frames(0, 0);
   PetscCall(contact->AtRest(standing, share, objection));
   if (objection.empty() && share > worth_saying) {
     char percent[32];
@@ -36,13 +36,13 @@ PetscErrorCode Problem::JudgeStart(std::string &objection, std::vector<std::stri
   }
   highest = std::min(highest, lowest + 2 * std::numbers::pi);
   for (int k = 0; k <= scanned && highest > lowest; ++k) {
-    std::string failure;
+    std::string fault;
     standing.top_rotation = lowest + (highest - lowest) * k / scanned;
-    PetscCall(contact->AtRest(standing, share, failure));
-    if (failure.empty()) continue;
+    PetscCall(contact->AtRest(standing, share, fault));
+    if (fault.empty()) continue;
     char angle[32];
     std::snprintf(angle, sizeof angle, "%.3g", standing.top_rotation);
-    doubts.push_back(std::string("when the top plate has turned by ") + angle + " rad, " + failure +
+    doubts.push_back(std::string("when the top plate has turned by ") + angle + " rad, " + fault +
                      " (undeformed); the run is likely to end before");
     break;
   }

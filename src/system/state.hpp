@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bulk/bulk.hpp"
+#include "contact/friction_memory.hpp"
 #include "support/petsc_handles.hpp"
 
 #include <array>
@@ -24,6 +25,7 @@ struct State {
   VecHandle
       Udot_before; ///< Euler's rule: the rate in the step before; SDIRK2: the mean rate of the last step
   History history; ///< internal variables at `time`
+  FrictionHistory friction_history; ///< what friction remembers at `time`
   PlateLoads loads{}, load_rates{},
       largest{}; ///< now, in the last step, and their largest absolute values so far
   double largest_strain =
@@ -33,8 +35,9 @@ struct State {
 };
 
 /// Every member once, by name: `visit(name, member)`, or `visit.Sum(name, member)` where the ranks' values
-/// add up to what is meant. A new member is one more line. Collective if the visitor is.
-template <class Visitor> PetscErrorCode VisitState(State &state, Visitor &visit)
+/// add up to what is meant. AnyState is State or const State. A new member is one more line. Collective if
+/// the visitor is.
+template <class AnyState, class Visitor> PetscErrorCode VisitState(AnyState &state, Visitor &visit)
 {
   PetscFunctionBeginUser;
   PetscCall(visit("phase", state.phase));
@@ -47,6 +50,7 @@ template <class Visitor> PetscErrorCode VisitState(State &state, Visitor &visit)
   PetscCall(visit("Udot", state.Udot));
   PetscCall(visit("Udot_before", state.Udot_before));
   PetscCall(visit("history", state.history));
+  PetscCall(visit("friction_history", state.friction_history));
   PetscCall(visit("loads", state.loads));
   PetscCall(visit("load_rates", state.load_rates));
   PetscCall(visit("largest", state.largest));

@@ -1,6 +1,6 @@
 /// What the contact preconditioner asks for: which unknowns are what, and how fields of order 2 follow from
 /// their values at the cells' vertices.
-#include "solve/problem.hpp"
+#include "system/system.hpp"
 
 #include <algorithm>
 
@@ -13,18 +13,18 @@ namespace
 /// Row and coordinate of each displacement that this rank owns.
 using Places = std::vector<std::pair<PetscInt, double>>;
 
-PetscErrorCode CreatePlaces(MPI_Comm comm, Places &rows, bool whole_nodes, VecHandle &place)
+PetscErrorCode CreatePlaces(MPI_Comm comm, Places &places, bool whole_nodes, VecHandle &place)
 {
   PetscScalar *values;
   PetscFunctionBeginUser;
-  std::sort(rows.begin(), rows.end());
+  std::sort(places.begin(), places.end());
   PetscCall(VecCreate(comm, place.put()));
-  PetscCall(VecSetSizes(place, static_cast<PetscInt>(rows.size()), PETSC_DETERMINE));
+  PetscCall(VecSetSizes(place, static_cast<PetscInt>(places.size()), PETSC_DETERMINE));
   if (whole_nodes) PetscCall(VecSetBlockSize(place, 3));
   PetscCall(VecSetType(place, VECSTANDARD));
   PetscCall(VecGetArray(place, &values));
-  for (const auto &[row, coordinate] : rows) *values++ = coordinate;
-  values -= rows.size();
+  for (const auto &[row, coordinate] : places) *values++ = coordinate;
+  values -= places.size();
   PetscCall(VecRestoreArray(place, &values));
   PetscFunctionReturn(0);
 }
@@ -46,28 +46,27 @@ std::vector<int> vertices_of(int node)
 
 } // namespace
 
-PetscErrorCode Problem::ListContactUnknowns()
+PetscErrorCode System::ListContactUnknowns()
 {
   ISLocalToGlobalMapping mapping;
   const PetscInt *to_global;
   auto list = std::make_shared<ContactUnknowns>();
-  Places rows;
+  Places places;
   PetscFunctionBeginUser;
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm)));
   PetscCall(DMGetLocalToGlobalMapping(mesh.dm, &mapping));
   PetscCall(ISLocalToGlobalMappingGetIndices(mapping, &to_global));
   for (const Node &node : mesh.nodes) {
     if (!node.owned) continue;
     for (int i = 0; i < 3; ++i)
-      if (!(node.prescribed >> i & 1u)) rows.emplace_back(to_global[node.displacement + i], node.X[i]);
+      if (!(node.prescribed >> i & 1u)) places.emplace_back(to_global[node.displacement + i], node.X[i]);
     if (node.prescribed != 0 && node.prescribed != 7) list->whole_nodes = false;
     if (node.traction < 0) continue;
     list->slave.push_back(node.prescribed ? -1 : to_global[node.displacement]);
     list->multiplier.push_back(to_global[node.traction]);
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &list->whole_nodes, 1, MPI_CXX_BOOL, MPI_LAND, comm));
-  PetscCall(CreatePlaces(comm, rows, list->whole_nodes, list->place));
-  for (const auto &[row, coordinate] : rows) list->displacement.push_back(row);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &list->whole_nodes, 1, MPI_CXX_BOOL, MPI_LAND, comm()));
+  PetscCall(CreatePlaces(comm(), places, list->whole_nodes, list->place));
+  for (const auto &[row, coordinate] : places) list->displacement.push_back(row);
   if (mesh.order == 2 && list->whole_nodes) PetscCall(InterpolateFromVertices(to_global, *list));
   PetscCall(ISLocalToGlobalMappingRestoreIndices(mapping, &to_global));
   contact_unknowns = list;
@@ -76,23 +75,22 @@ PetscErrorCode Problem::ListContactUnknowns()
 
 /// A field of order 1 on the same cells, as one of order 2: at edges, faces and centres the mean of the
 /// vertices.
-PetscErrorCode Problem::InterpolateFromVertices(const PetscInt *to_global, ContactUnknowns &list)
+PetscErrorCode System::InterpolateFromVertices(const PetscInt *to_global, ContactUnknowns &list)
 {
   VecHandle number, local;
   PetscScalar *values;
   const PetscScalar *column;
   PetscInt first, first_row, first_column;
-  Places rows;
+  Places places;
   std::vector<bool> vertex(mesh.nodes.size(), false);
   PetscFunctionBeginUser;
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(mesh.dm)));
   for (const MeshCell &cell : mesh.cells)
     for (int a = 0; a < 27; ++a)
       if (vertices_of(a).size() == 1) vertex[cell.node[a]] = true;
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
     for (int i = 0; i < 3 && vertex[n] && mesh.nodes[n].owned && !mesh.nodes[n].prescribed; ++i)
-      rows.emplace_back(to_global[mesh.nodes[n].displacement + i], mesh.nodes[n].X[i]);
-  PetscCall(CreatePlaces(comm, rows, true, list.vertex_place));
+      places.emplace_back(to_global[mesh.nodes[n].displacement + i], mesh.nodes[n].X[i]);
+  PetscCall(CreatePlaces(comm(), places, true, list.vertex_place));
 
   PetscCall(DMCreateGlobalVector(mesh.dm, number.put()));
   PetscCall(DMCreateLocalVector(mesh.dm, local.put()));
@@ -100,14 +98,14 @@ PetscErrorCode Problem::InterpolateFromVertices(const PetscInt *to_global, Conta
   PetscCall(VecGetOwnershipRange(list.place, &first_row, nullptr));
   PetscCall(VecGetOwnershipRange(list.vertex_place, &first_column, nullptr));
   PetscCall(VecGetArrayWrite(number, &values));
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    values[rows[k].first - first] = first_column + static_cast<double>(k); // exact
+  for (std::size_t k = 0; k < places.size(); ++k)
+    values[places[k].first - first] = first_column + static_cast<double>(k); // exact
   PetscCall(VecRestoreArrayWrite(number, &values));
   PetscCall(DMGlobalToLocal(mesh.dm, number, INSERT_VALUES, local));
 
   const auto own_rows = static_cast<PetscInt>(list.displacement.size());
-  PetscCall(MatCreateAIJ(comm, own_rows, static_cast<PetscInt>(rows.size()), PETSC_DETERMINE, PETSC_DETERMINE,
-                         8, nullptr, 8, nullptr, list.from_vertices.put()));
+  PetscCall(MatCreateAIJ(comm(), own_rows, static_cast<PetscInt>(places.size()), PETSC_DETERMINE,
+                         PETSC_DETERMINE, 8, nullptr, 8, nullptr, list.from_vertices.put()));
   PetscCall(VecGetArrayRead(local, &column));
   for (const MeshCell &cell : mesh.cells)
     for (int a = 0; a < 27; ++a) {

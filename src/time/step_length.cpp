@@ -1,5 +1,5 @@
 /// How long steps may be before their errors are known: at a phase's start, at the first touch, at all.
-#include "solve/problem.hpp"
+#include "time/stepper.hpp"
 #include "tribogel/material/relaxation.hpp"
 #include "tribogel/math/sdirk2.hpp"
 
@@ -22,12 +22,12 @@ constexpr double shortest_of_interest = 1.0 / 500;
 /// h^2/(2 tau^2):
 /// `-ts_atol` with tau the shortest relaxation time of the gels. Errors of steps up to `unresolved` do not
 /// count.
-PetscErrorCode Problem::FirstStep(PetscReal &step, PetscReal &unresolved) const
+PetscErrorCode Stepper::FirstStep(PetscReal &step, PetscReal &unresolved) const
 {
   PetscReal fraction;
   PetscFunctionBeginUser;
   unresolved = step = phase().duration();
-  if (steady()) PetscFunctionReturn(0); // one step, unless it fails
+  if (system.steady()) PetscFunctionReturn(0); // one step, unless it fails
   PetscCall(TSGetTolerances(ts, &fraction, nullptr, nullptr, nullptr));
   double tau = shortest_of_interest * phase().duration();
   for (const Specimen *gel : scene.gels())
@@ -46,19 +46,20 @@ PetscErrorCode Problem::FirstStep(PetscReal &step, PetscReal &unresolved) const
 }
 
 /// Added to any time of the phase it makes another: with less a run would never end.
-PetscReal Problem::ShortestStep() const
+PetscReal Stepper::ShortestStep() const
 {
   return 16 * std::numeric_limits<double>::epsilon() * phase().end_time;
 }
 
 /// While nothing has been loaded there is nothing to be resolved until the plate has travelled the gap. A
 /// little less, so that the gels are apart then; 0 afterwards.
-PetscReal Problem::TimeUntilTouch() const
+PetscReal Stepper::TimeUntilTouch() const
 {
   const Phase &now = phase();
   const bool alone_and_moves =
       !scene.has_contact() && (now.end_approach != 0 || now.rate != scene.bottom_plate_rate);
-  if (alone_and_moves || state.largest[0] > least_loads[0] || state.largest[1] > least_loads[1]) return 0;
+  if (alone_and_moves || state.largest[0] > system.least.loads[0] || state.largest[1] > system.least.loads[1])
+    return 0;
   double touch = now.end_time;
   if (scene.has_contact() && now.end_approach > scene.initial_gap)
     touch =
@@ -69,7 +70,7 @@ PetscReal Problem::TimeUntilTouch() const
 
 /// No step goes over the first touch, and one that ends there is followed by as short a one as begins a
 /// phase.
-PetscErrorCode Problem::StopAtTouch(PetscReal left_before)
+PetscErrorCode Stepper::StopAtTouch(PetscReal left_before)
 {
   PetscReal step, unresolved;
   PetscFunctionBeginUser;
@@ -86,7 +87,7 @@ PetscErrorCode Problem::StopAtTouch(PetscReal left_before)
 
 /// Loads that turn through the gels come back after a revolution: a step of much of one would not see that
 /// they change.
-PetscReal Problem::LongestStep() const
+PetscReal Stepper::LongestStep() const
 {
   constexpr double most_of_a_turn = 0.5; // [rad]
   const double rate = std::abs(phase().rate - scene.bottom_plate_rate);

@@ -1,5 +1,5 @@
 /// Is the friction law asked what it can answer? Looked at after each accepted step, if the law gives cause.
-#include "solve/problem.hpp"
+#include "time/stepper.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +18,7 @@ struct FrictionCheck {
   double fastest = 0;   ///< sliding speed [mm/s]
   double growth =
       0; ///< in which a disturbance of the sliding grows e-fold, the longest time; 0: none grows [s]
+  double critical = 0; ///< with memory: stiffness below which steady sliding is unstable [MPa/mm]
 };
 
 /// Tangential stiffness of the gels in series, sheared as a whole: the softest way in which all nodes can
@@ -31,6 +32,8 @@ double shear_stiffness(const Scene &scene)
 }
 
 /// Without inertia k dx = -tau'(v) dv at a node that slides: where tau falls, dx grows with the time -tau'/k.
+/// A law with memory rises at once, and falls at its rate of forgetting r: with springs softer than -tau' r,
+/// tau' that of steady sliding (Ruina 1983).
 FrictionCheck look(const Scene &scene, const ContactResults &results)
 {
   FrictionCheck found;
@@ -41,7 +44,11 @@ FrictionCheck look(const Scene &scene, const ContactResults &results)
       if (!node.carries || node.status != ContactStatus::slip || !(node.pressure > 0)) continue;
       const double v = node.velocity.norm(), mu = scene.friction.coefficient(v, node.pressure);
       found.fastest = std::max(found.fastest, v);
-      found.growth = std::max(found.growth, -scene.friction.slope(v, node.pressure) / stiffness);
+      const double fall = -scene.friction.slope(v, node.pressure);
+      if (scene.friction.has_memory())
+        found.critical = std::max(found.critical, fall * scene.friction.law()->memory_rate(v));
+      else
+        found.growth = std::max(found.growth, fall / stiffness);
       if (mu < found.lowest) {
         found.lowest = mu;
         found.at_speed = v;
@@ -90,6 +97,16 @@ std::string about_instability(const FrictionCheck &found, double time)
   return text.str();
 }
 
+std::string about_critical_stiffness(const FrictionCheck &found, double time, double stiffness)
+{
+  std::ostringstream text;
+  text << "t = " << time
+       << " s: friction in steady sliding falls with the speed, which needs a stiffness of more than "
+       << found.critical << " MPa/mm to be stable; sheared as a whole the gels have " << stiffness
+       << " MPa/mm: such an interface sticks and slips for itself";
+  return text.str();
+}
+
 std::string about_weakening(const FrictionCheck &found, double time, double step)
 {
   std::ostringstream text;
@@ -113,7 +130,7 @@ std::string about_early_end(int phase, double time, double left)
 
 } // namespace
 
-PetscErrorCode Problem::CheckFriction()
+PetscErrorCode Stepper::CheckFriction()
 {
   Vec U, Udot;
   const PetscScalar *u, *rate;
@@ -128,7 +145,7 @@ PetscErrorCode Problem::CheckFriction()
   PetscCall(LocalState(U, Udot));
   PetscCall(VecGetArrayRead(U, &u));
   PetscCall(VecGetArrayRead(Udot, &rate));
-  PetscCall(contact->Results(frames(state.time, state.step), u, rate, results));
+  PetscCall(contact->Results(plates_now(), u, rate, results, friction_now()));
   PetscCall(VecRestoreArrayRead(Udot, &rate));
   PetscCall(VecRestoreArrayRead(U, &u));
   PetscCall(DMRestoreLocalVector(mesh.dm, &Udot));
@@ -149,12 +166,16 @@ PetscErrorCode Problem::CheckFriction()
     told.unstable = true;
     PetscCall(Notify(about_instability(found, state.time)));
   }
+  if (found.critical > shear_stiffness(scene) && turned && !told.unstable) {
+    told.unstable = true;
+    PetscCall(Notify(about_critical_stiffness(found, state.time, shear_stiffness(scene))));
+  }
   PetscFunctionReturn(0);
 }
 
 /// Once N and T would change by less than asked for even if they went on as fast as now, the rest of a phase
 /// at constant approach is one step.
-PetscErrorCode Problem::EndPhaseEarly()
+PetscErrorCode Stepper::EndPhaseEarly()
 {
   PetscFunctionBeginUser;
   const Phase &now = phase();
@@ -170,10 +191,10 @@ PetscErrorCode Problem::EndPhaseEarly()
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode Problem::Notify(const std::string &text)
+PetscErrorCode Stepper::Notify(const std::string &text)
 {
   PetscFunctionBeginUser;
-  for (Observer *observer : watching) PetscCall(observer->Notice(*this, text));
+  for (Observer *observer : watching) PetscCall(observer->Notice(*watched, text));
   PetscFunctionReturn(0);
 }
 

@@ -1,7 +1,7 @@
 /// A failed solve is named here; TS then cuts the step.
-#include "solve/failure.hpp"
+#include "time/failure.hpp"
 
-#include "solve/problem.hpp"
+#include "time/stepper.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -107,20 +107,21 @@ std::string describe_end(const Scene &scene, const FailurePlace &place, double c
   return text.str();
 }
 
-PetscErrorCode Problem::Diagnose(SNES snes, StepFailure &failure) const
+PetscErrorCode Stepper::Diagnose(SNES snes, StepFailure &failure) const
 {
   SNESConvergedReason reason;
   PetscFunctionBeginUser;
   PetscCall(SNESGetConvergedReason(snes, &reason));
   std::ostringstream text;
-  if (bulk_failure) {
-    failure.kind = bulk_failure.status == PointStatus::inverted ? FailureKind::inverted_element
-                                                                : FailureKind::maxwell_update;
-    text << describe(bulk_failure);
-    failure.place = {bulk_failure.body, bulk_failure.X, bulk_failure.status == PointStatus::inverted};
-  } else if (!contact_failure.empty()) {
+  const BulkFailure &bulk = system.failure.bulk;
+  if (bulk) {
+    failure.kind =
+        bulk.status == PointStatus::inverted ? FailureKind::inverted_element : FailureKind::maxwell_update;
+    text << describe(bulk);
+    failure.place = {bulk.body, bulk.X, bulk.status == PointStatus::inverted};
+  } else if (!system.failure.contact.empty()) {
     failure.kind = FailureKind::contact_search;
-    text << contact_failure;
+    text << system.failure.contact;
     if (const auto X = contact->failed_at()) failure.place = {top_body, *X};
   } else if (reason == SNES_DIVERGED_LINEAR_SOLVE) {
     failure.kind = FailureKind::linear_solver;
@@ -140,23 +141,16 @@ PetscErrorCode Problem::Diagnose(SNES snes, StepFailure &failure) const
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PostStage(TS ts, PetscReal, PetscInt, Vec *)
+PetscErrorCode Stepper::TakeFailure(SNES snes)
 {
-  Problem *problem;
-  SNES snes;
-  SNESConvergedReason reason;
+  StepFailure &failure = last_failure;
   PetscFunctionBeginUser;
-  PetscCall(TSGetSNES(ts, &snes));
-  PetscCall(SNESGetConvergedReason(snes, &reason));
-  if (reason > 0) PetscFunctionReturn(0);
-  PetscCall(TSGetApplicationContext(ts, &problem));
-  StepFailure &failure = problem->last_failure;
   failure = {};
-  failure.time = problem->state.time;
+  failure.time = state.time;
   PetscCall(TSGetTimeStep(ts, &failure.step));
-  PetscCall(problem->Diagnose(snes, failure));
-  ++problem->counts.failures[static_cast<std::size_t>(failure.kind)];
-  PetscCall(problem->TellFailure());
+  PetscCall(Diagnose(snes, failure));
+  ++counts.failures[static_cast<std::size_t>(failure.kind)];
+  for (Observer *observer : watching) PetscCall(observer->Failed(*watched, failure));
 
   // TSAdapt keeps to its smallest step when it chooses one, not when it cuts one.
   TSAdapt adapt;
