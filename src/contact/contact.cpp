@@ -60,6 +60,7 @@ PetscErrorCode Contact::SetUp(MPI_Comm on, const Mesh &mesh, const Scene &scene)
 {
   PetscFunctionBeginUser;
   comm = on;
+  friction = scene.friction;
   if (scene.has_contact()) {
     gels.emplace_back();
     PetscCall(gels.back().SetUp(comm, mesh, scene, mesh.slave, {}));

@@ -48,8 +48,8 @@ template <class Visitor> PetscErrorCode VisitCost(RunCost &cost, Visitor &visit)
 struct RecordName {
   const char *numbers, *names, *before;
 };
-constexpr RecordName steps_name{"history", "history_columns", "rows"};
-constexpr RecordName phase_ends_name{"phase_ends", "phase_end_columns", "phases"};
+constexpr RecordName steps_name{"history_rows", "history_columns", "rows"};
+constexpr RecordName phase_ends_name{"phase_end_rows", "phase_end_columns", "phases"};
 
 PetscErrorCode Load(Loader &load, const RecordName &place, const std::string &unwritten_names, Record &record)
 {

@@ -130,8 +130,7 @@ void read_schedule_kind(const OptionReader &reader, SceneInput &input)
       refuse("-schedule_kind", "steady",
              "phase " + std::to_string(k + 1) +
                  " is at rest, where static friction depends on the way there; allowed: transient, phases "
-                 "that turn, or "
-                 "no coefficient with the exponent 0");
+                 "that turn, or a law that vanishes at rest");
 }
 
 void read_phase_end_tolerance(const OptionReader &reader, Scene &scene)

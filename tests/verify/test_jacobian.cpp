@@ -178,8 +178,8 @@ TEST_P(jacobian, OfALawWithMemory)
 {
   RateAndStateFriction<double> law;
   law.set({{0.5}, {0.17}, {0.21}, {0.11}, {0.3}, {0.7}});
-  for (const double step : {0.37, 23.0})
-    check({GetParam(), 12.5, 0.03, {}, {}, 1.3, {true, false, true}, 1, law}, step);
+  check({GetParam(), 12.5, 0.03, {}, {}, 1.3, {true, false, true}, 1, law}, 0.37);
+  check({GetParam(), 12.5, 0.03, {}, {}, 1.9, {true, false, true}, 1, law}, 23);
 }
 
 TEST_P(jacobian, OfWallsThatTouchTheirPlateAndRollOntoTheOtherGel)

@@ -21,8 +21,9 @@ namespace
 {
 
 constexpr double mu_0 = 0.3, a = 0.03, b = 0.04, L = 0.004, v_0 = 0.02, theta_0 = 0.5;
-constexpr double R = 1000, width = 1, compression = 0.003; // undeformed [mm]
-constexpr double heights = 4.4 + 4, speeds[2] = {0.01, 0.03}, phase_ends[] = {1, 3, 9, 11};
+constexpr double R = 3e5, width = 300, compression = 1e-5; // undeformed [mm]
+constexpr double top_height = 1320, heights = top_height + 1200, speeds[2] = {0.01, 0.03},
+                 phase_ends[] = {1, 3, 9, 11};
 const UniaxialState state = uniaxial_state(hyperelastic_gel().equilibrium, 1 - compression);
 
 Friction friction()
@@ -42,7 +43,7 @@ double mean_arm()
 
 Scene rings()
 {
-  Scene scene = lubricated_discs(R + width / 2, 4.4, 4, 1);
+  Scene scene = lubricated_discs(R + width / 2, top_height, heights - top_height, 1);
   scene.friction = friction();
   const double approach = compression * heights;
   scene.schedule = schedule_from_rates({phase_ends[0], phase_ends[1], phase_ends[2], phase_ends[3]},
@@ -90,7 +91,9 @@ void go_on(SpringSlider &at, double V, double duration)
 /// Largest difference of mu from spring and slider in each phase that turns.
 std::array<double, 2> error(TimeRule rule, double dt)
 {
-  const SolverOptions options(fixed_steps(dt, 1e-10));
+  OptionList given = fixed_steps(dt, 1e-10);
+  given.push_back({"-ts_atol", "1"}); // no second stage is damped, which is of first order
+  const SolverOptions options(given);
   Scene scene = rings();
   scene.time.rule = rule;
   const auto curve = measured(scene);
@@ -122,16 +125,17 @@ TEST(rate_and_state, IsSpringAndSliderInTime)
 {
   for (const TimeRule rule : {TimeRule::exponential_euler, TimeRule::sdirk2}) {
     const int order = rule == TimeRule::sdirk2 ? 2 : 1;
+    const double coarsest = order == 2 ? 0.1 : 0.05;
     std::array<double, 2> before{};
-    for (const double dt : {0.05, 0.025, 0.0125}) {
+    for (const double dt : {coarsest, coarsest / 2, coarsest / 4}) {
       const auto now = error(rule, dt);
       std::printf("order %d, step %.4f s: errors of mu %.2e from rest, %.2e after the jump\n", order, dt,
                   now[0], now[1]);
       for (std::size_t k = 0; k < 2; ++k) {
-        if (dt < 0.05) {
+        if (dt < coarsest) {
           EXPECT_GE(std::log2(before[k] / now[k]), order - 0.2) << "phase " << k;
         }
-        EXPECT_LT(now[k], order == 2 ? 0.01 : 0.03);
+        EXPECT_LT(now[k], order == 2 ? 1e-3 : 1e-2);
       }
       before = now;
     }

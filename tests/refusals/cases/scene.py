@@ -1,6 +1,11 @@
 """Models, specimens, materials, friction, schedules and meshes of cylinders."""
 from .scenes import SMALL
 
+LAW = "-friction_rate_and_state_"
+WITHOUT_LENGTH = ["-friction_law", "rate_and_state", LAW + "coefficient", "0.3", LAW + "direct_effect", "0.01",
+                  LAW + "evolution_effect", "0.015", LAW + "speed", "1", LAW + "initial_age", "1"]
+RATE_AND_STATE = WITHOUT_LENGTH + [LAW + "length", "0.1"]
+
 REFUSALS = [
     ("negative modulus", ["-top_ogden_moduli", "-0.75,0.45,0.18"], ["-top_ogden_moduli = -0.75,0.45,0.18"]),
     ("negative bulk modulus", ["-bottom_bulk_modulus", "-200"], ["-bottom_bulk_modulus = -200"]),
@@ -34,6 +39,12 @@ REFUSALS = [
      ["-contact_integration = elements", "segments with -model axisymmetric"]),
     ("one cell for a circle", ["-model", "solid", "-elements_radial", "1"],
      ["-elements_radial = 1", "at least 2"]),
+    ("no length of a law with memory", WITHOUT_LENGTH,
+     ["-friction_rate_and_state_length: not given", "> 0"]),
+    ("steady state at rest, weakening", RATE_AND_STATE + ["-schedule_kind", "steady"],
+     ["-schedule_kind = steady", "phase 1 is at rest"]),
+    ("steady state in space, weakening", RATE_AND_STATE + ["-schedule_kind", "steady", "-model", "solid"],
+     ["-schedule_kind = steady", "in space", "b < a"]),
     ("pressure exponent", ["-friction_pressure_exponent", "1.2"],
      ["-friction_pressure_exponent = 1.2", "0 to 1"]),
     ("pressure floor", ["-friction_pressure_floor", "0"], ["-friction_pressure_floor = 0", "> 0"]),
