@@ -15,7 +15,7 @@ namespace
 {
 
 /// Sliding that a matrix pattern allows for, in facets. A whole facet makes the condensed matrix in space
-/// (solve/) a fifth larger and MUMPS 7 % slower than half a one; a quarter rebuilds the pattern more often
+/// (linear/) a fifth larger and MUMPS 7 % slower than half a one; a quarter rebuilds the pattern more often
 /// and gains nothing.
 constexpr double margin_in_facets = 0.5;
 
