@@ -58,13 +58,17 @@ std::vector<bool> crease_of(const Surface &wall, const Surface &face)
 
 PetscErrorCode Contact::SetUp(MPI_Comm on, const Mesh &mesh, const Scene &scene)
 {
+  std::vector<std::unique_ptr<ContactPart>> walls;
   PetscFunctionBeginUser;
   comm = on;
   friction = scene.friction;
-  if (scene.has_contact()) {
-    gels.emplace_back();
-    PetscCall(gels.back().SetUp(comm, mesh, scene, mesh.slave, {}));
-  }
+  const auto add_gel = [&](const Surface &slave, std::vector<bool> on_crease) {
+    auto gel = std::make_unique<GelOnGel>();
+    gels.push_back(gel.get());
+    parts.push_back(std::move(gel));
+    return gels.back()->SetUp(comm, mesh, scene, slave, std::move(on_crease));
+  };
+  if (scene.has_contact()) PetscCall(add_gel(mesh.slave, {}));
   for (int body : {bottom_body, top_body}) {
     const Surface &wall = mesh.wall[body];
     if (wall.facet.empty()) continue;
@@ -72,13 +76,24 @@ PetscErrorCode Contact::SetUp(MPI_Comm on, const Mesh &mesh, const Scene &scene)
     if (body == top_body) {
       taken = crease_of(wall, mesh.slave);
       const Surface lower = lower_half(wall, mesh.dim - 1, taken);
-      if (!lower.facet.empty()) {
-        gels.emplace_back();
-        PetscCall(gels.back().SetUp(comm, mesh, scene, lower, crease_of(lower, mesh.slave)));
-      }
+      if (!lower.facet.empty()) PetscCall(add_gel(lower, crease_of(lower, mesh.slave)));
     }
-    plates.emplace_back();
-    plates.back().SetUp(mesh, scene, body, wall, taken);
+    auto at_plates = std::make_unique<WallOnPlate>();
+    at_plates->SetUp(mesh, scene, body, wall, taken);
+    walls.push_back(std::move(at_plates));
+  }
+  for (auto &wall : walls) parts.push_back(std::move(wall));
+  PetscFunctionReturn(0);
+}
+
+template <class OfPart>
+PetscErrorCode Contact::EachPart(const FrictionMemory &memory, const OfPart &of_part) const
+{
+  std::size_t node = 0;
+  PetscFunctionBeginUser;
+  for (const auto &part : parts) {
+    PetscCall(of_part(*part, memory.part(node, part->slave_nodes())));
+    node += part->slave_nodes();
   }
   PetscFunctionReturn(0);
 }
@@ -86,42 +101,34 @@ PetscErrorCode Contact::SetUp(MPI_Comm on, const Mesh &mesh, const Scene &scene)
 PetscErrorCode Contact::BeginStep(const PlateFrames &frames, const double *U)
 {
   PetscFunctionBeginUser;
-  for (GelOnGel &gel : gels) PetscCall(gel.BeginStep(frames, U));
+  for (const auto &part : parts) PetscCall(part->BeginStep(frames, U));
   PetscFunctionReturn(0);
 }
 
 void Contact::BeginAttempt()
 {
-  for (GelOnGel &gel : gels) gel.BeginAttempt();
+  for (const auto &part : parts) part->BeginAttempt();
 }
 
 PetscErrorCode Contact::AddResidual(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
                                     const double *Udot, double *F, double *magnitude, std::string &failure)
 {
-  std::size_t node = 0;
   PetscFunctionBeginUser;
-  for (GelOnGel &gel : gels) gel.failed_at.reset();
-  for (GelOnGel &gel : gels) {
-    const FrictionMemory own = memory.part(node, gel.slave_nodes());
-    if (failure.empty()) PetscCall(gel.AddResidual(frames, own, U, Udot, F, magnitude, failure));
-    node += gel.slave_nodes();
-  }
-  for (const WallOnPlate &plate : plates) plate.AddResidual(frames, U, F, magnitude);
+  for (GelOnGel *gel : gels) gel->failed_at.reset();
+  PetscCall(EachPart(memory, [&](ContactPart &part, const FrictionMemory &own) -> PetscErrorCode {
+    return failure.empty() ? part.AddResidual(frames, own, U, Udot, F, magnitude, failure) : 0;
+  }));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode Contact::AddJacobian(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
                                     const double *Udot, double shift, Mat A, std::string &failure)
 {
-  std::size_t node = 0;
   PetscFunctionBeginUser;
-  for (GelOnGel &gel : gels) gel.failed_at.reset();
-  for (GelOnGel &gel : gels) {
-    const FrictionMemory own = memory.part(node, gel.slave_nodes());
-    if (failure.empty()) PetscCall(gel.AddJacobian(frames, own, U, Udot, shift, A, failure));
-    node += gel.slave_nodes();
-  }
-  for (const WallOnPlate &plate : plates) PetscCall(plate.AddJacobian(frames, U, A));
+  for (GelOnGel *gel : gels) gel->failed_at.reset();
+  PetscCall(EachPart(memory, [&](ContactPart &part, const FrictionMemory &own) -> PetscErrorCode {
+    return failure.empty() ? part.AddJacobian(frames, own, U, Udot, shift, A, failure) : 0;
+  }));
   PetscFunctionReturn(0);
 }
 
@@ -129,15 +136,11 @@ PetscErrorCode Contact::AddMotionSlopes(const PlateFrames &frames, const Frictio
                                         const double *U, const double *Udot, double shift, double *by_travel,
                                         double *by_turn, std::string &failure)
 {
-  std::size_t node = 0;
   PetscFunctionBeginUser;
-  for (GelOnGel &gel : gels) {
-    const FrictionMemory own = memory.part(node, gel.slave_nodes());
-    if (failure.empty())
-      PetscCall(gel.AddMotionSlopes(frames, own, U, Udot, shift, by_travel, by_turn, failure));
-    node += gel.slave_nodes();
-  }
-  for (const WallOnPlate &plate : plates) plate.AddTravelSlope(frames, U, by_travel);
+  PetscCall(EachPart(memory, [&](ContactPart &part, const FrictionMemory &own) -> PetscErrorCode {
+    return failure.empty() ? part.AddMotionSlopes(frames, own, U, Udot, shift, by_travel, by_turn, failure)
+                           : 0;
+  }));
   PetscFunctionReturn(0);
 }
 
@@ -146,7 +149,7 @@ FrictionHistory Contact::InitialHistory() const
   FrictionHistory history;
   if (!friction.has_memory()) return history;
   std::size_t nodes = 0;
-  for (const GelOnGel &gel : gels) nodes += gel.slave_nodes();
+  for (const auto &part : parts) nodes += part->slave_nodes();
   history.values.assign(nodes, friction.law()->initial_memory());
   return history;
 }
@@ -157,11 +160,11 @@ PetscErrorCode Contact::Advance(const PlateFrames &frames, const FrictionMemory 
   std::size_t node = 0;
   PetscFunctionBeginUser;
   next.values.resize(memory.start.size());
-  for (GelOnGel &gel : gels) {
-    const std::span<double> own = std::span(next.values).subspan(node, gel.slave_nodes());
-    PetscCall(gel.Advance(frames, memory.part(node, gel.slave_nodes()), U, Udot, own));
-    node += gel.slave_nodes();
-  }
+  PetscCall(EachPart(memory, [&](ContactPart &part, const FrictionMemory &own) {
+    const std::span<double> values = std::span(next.values).subspan(node, part.slave_nodes());
+    node += part.slave_nodes();
+    return part.Advance(frames, own, U, Udot, values);
+  }));
   PetscFunctionReturn(0);
 }
 
@@ -169,9 +172,9 @@ PetscErrorCode Contact::UpdateCandidates(const PlateFrames &frames, const double
 {
   PetscFunctionBeginUser;
   covered = true;
-  for (GelOnGel &gel : gels) {
+  for (const auto &part : parts) {
     bool inside;
-    PetscCall(gel.UpdateCandidates(frames, U, inside));
+    PetscCall(part->UpdateCandidates(frames, U, inside));
     covered = covered && inside;
   }
   PetscFunctionReturn(0);
@@ -180,21 +183,19 @@ PetscErrorCode Contact::UpdateCandidates(const PlateFrames &frames, const double
 PetscErrorCode Contact::AddPattern(Mat A) const
 {
   PetscFunctionBeginUser;
-  for (const GelOnGel &gel : gels) PetscCall(gel.AddPattern(A));
-  for (const WallOnPlate &plate : plates) PetscCall(plate.AddPattern(A));
+  for (const auto &part : parts) PetscCall(part->AddPattern(A));
   PetscFunctionReturn(0);
 }
 
 void Contact::AddRoundOff(double *magnitude) const
 {
-  for (const GelOnGel &gel : gels) gel.AddRoundOff(magnitude);
-  for (const WallOnPlate &plate : plates) plate.AddRoundOff(magnitude);
+  for (const auto &part : parts) part->AddRoundOff(magnitude);
 }
 
 Wrench Contact::WallReaction(const double *U) const
 {
   Wrench wrench;
-  for (const WallOnPlate &plate : plates) wrench += plate.ReactionOfTopPlate(U);
+  for (const auto &part : parts) wrench += part->ReactionOfTopPlate(U);
   return wrench;
 }
 
@@ -204,12 +205,12 @@ PetscErrorCode Contact::Results(const PlateFrames &frames, const double *U, cons
   std::size_t node = 0;
   PetscFunctionBeginUser;
   results = {};
-  for (GelOnGel &gel : gels) {
+  for (GelOnGel *gel : gels) {
     SurfaceResults surface;
     double force, torque;
-    const FrictionMemory own = memory.part(node, gel.slave_nodes());
-    PetscCall(gel.Results(frames, own, U, Udot, surface, force, torque));
-    node += gel.slave_nodes();
+    const FrictionMemory own = memory.part(node, gel->slave_nodes());
+    PetscCall(gel->Results(frames, own, U, Udot, surface, force, torque));
+    node += gel->slave_nodes();
     results.force += force;
     results.torque += torque;
     results.surfaces.push_back(std::move(surface));

@@ -1,9 +1,11 @@
 /// All contact of a scene: the top gel's lower face on the bottom gel, its wall that rolls on, the walls at
-/// the plates. Every slave node belongs to exactly one of them.
+/// the plates, each a ContactPart.
 #pragma once
 
 #include "contact/gel_on_gel.hpp"
 #include "contact/wall_on_plate.hpp"
+
+#include <memory>
 
 namespace tribogel
 {
@@ -52,7 +54,7 @@ public:
   /// one's, or why they cannot. Collective.
   PetscErrorCode AtRest(const PlateFrames &frames, double &share, std::string &failure)
   {
-    return gels.front().AtRest(frames, share, failure);
+    return gels.front()->AtRest(frames, share, failure);
   }
 
   /// Finds the pairs of facets that meet at U and whether the matrix pattern covers them; if not, the next
@@ -70,22 +72,25 @@ public:
   Wrench WallReaction(const double *U) const;
 
   bool between_gels() const { return !gels.empty(); }
-  const GelOnGel &lower_face() const { return gels.front(); }
-  double overhang() const { return gels.front().overhang; }
+  const GelOnGel &lower_face() const { return *gels.front(); }
+  double overhang() const { return gels.front()->overhang; }
 
   /// Reference place on the top gel of a facet that could not be evaluated last; empty: there was none.
   std::optional<std::array<double, 3>> failed_at() const
   {
-    for (const GelOnGel &gel : gels)
-      if (gel.failed_at) return gel.failed_at;
+    for (const GelOnGel *gel : gels)
+      if (gel->failed_at) return gel->failed_at;
     return {};
   }
 
 private:
   MPI_Comm comm = MPI_COMM_NULL;
   Friction friction;
-  std::vector<GelOnGel> gels;
-  std::vector<WallOnPlate> plates;
+  std::vector<std::unique_ptr<ContactPart>> parts; ///< gels first
+  std::vector<GelOnGel *> gels;                    ///< of them the lower face, then the wall that may roll
+
+  /// `part(memory of its nodes)` for each part.
+  template <class OfPart> PetscErrorCode EachPart(const FrictionMemory &memory, const OfPart &of_part) const;
 };
 
 } // namespace tribogel

@@ -45,13 +45,14 @@ public:
   SurfacePlace slave_place(int a) const;
   SurfacePlace master_place(int b) const;
 
-  /// The Jacobian's blocks of these nodes, and the rows and columns that they can have with these pairs.
-  void jacobian(int first, int last, const Emit &emit) const;
+  /// The Jacobian in blocks that add up, of the nodes given to update, and the rows and columns that they can
+  /// have with these pairs.
+  void jacobian(const Emit &emit) const;
   void pattern(const Pairs &pairs, int first, int last, const Emit &emit) const;
 
   /// d residual / d travel [N/mm] and / d angle [N/rad] of the slave's plate, whose rates change by shift
-  /// times as much, of these nodes' rows in parts that add up.
-  void motion_slopes(int first, int last, const AddSlope &add) const;
+  /// times as much, of the nodes given to update, in parts that add up.
+  void motion_slopes(const AddSlope &add) const;
 
   const Friction &friction() const;
   const SlaveNode &constants(int a) const;
@@ -74,7 +75,7 @@ public:
 
 private:
   struct Operators;
-  std::unique_ptr<Operators> is;
+  std::unique_ptr<Operators> impl;
 };
 
 } // namespace tribogel

@@ -278,18 +278,16 @@ PetscErrorCode GelOnGel::AddMotionSlopes(const PlateFrames &frames, const Fricti
   PetscCall(Evaluate(state, true, failure));
   if (!failure.empty()) PetscFunctionReturn(0);
   std::vector<double> sums(2 * length, 0.0);
-  model->motion_slopes(
-      first, last,
-      [&](ContactOperator::Motion motion, const ContactUnknown &row, const Vector3<double> &slope) {
-        const auto node = static_cast<std::size_t>(row.node);
-        if (row.kind == ContactUnknown::multiplier && !slave.node[node].multiplier) return;
-        const std::size_t place = row.kind == ContactUnknown::slave        ? 6 * node
-                                  : row.kind == ContactUnknown::multiplier ? 6 * node + 3
-                                                                           : 6 * slaves + 3 * node;
-        for (int i = 0; i < 3; ++i)
-          sums[(motion == ContactOperator::turn ? length : 0) + place + static_cast<std::size_t>(i)] +=
-              slope[i];
-      });
+  model->motion_slopes([&](ContactOperator::Motion motion, const ContactUnknown &row,
+                           const Vector3<double> &slope) {
+    const auto node = static_cast<std::size_t>(row.node);
+    if (row.kind == ContactUnknown::multiplier && !slave.node[node].multiplier) return;
+    const std::size_t place = row.kind == ContactUnknown::slave        ? 6 * node
+                              : row.kind == ContactUnknown::multiplier ? 6 * node + 3
+                                                                       : 6 * slaves + 3 * node;
+    for (int i = 0; i < 3; ++i)
+      sums[(motion == ContactOperator::turn ? length : 0) + place + static_cast<std::size_t>(i)] += slope[i];
+  });
   PetscCall(AddSurfaceSums(sums, by_travel, by_turn));
   PetscFunctionReturn(0);
 }
@@ -340,7 +338,7 @@ PetscErrorCode GelOnGel::AddJacobian(const PlateFrames &frames, const FrictionMe
     } else
       worst = std::max(worst, Add(block, A));
   };
-  model->jacobian(first, last, add);
+  model->jacobian(add);
   PetscCall(worst);
   PetscCall(own.Close());
   PetscFunctionReturn(0);

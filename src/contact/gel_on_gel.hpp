@@ -6,7 +6,7 @@
 
 #include "contact/contact_operator.hpp"
 #include "contact/friction_memory.hpp"
-#include "contact/plate_frames.hpp"
+#include "contact/part.hpp"
 
 #include <optional>
 #include <string>
@@ -22,57 +22,37 @@ struct SurfaceResults {
   std::vector<bool> on_crease;             ///< of a wall: nodes that belong to the lower face; empty on that
 };
 
-class GelOnGel
+class GelOnGel final : public ContactPart
 {
 public:
   /// `on_crease` marks the nodes of a side wall that belong to the lower face; empty: the slave is that face.
   PetscErrorCode SetUp(MPI_Comm comm, const Mesh &mesh, const Scene &scene, Surface slave,
                        std::vector<bool> on_crease);
 
-  /// Before a step from U: which facets of a wall may touch during it. Collective.
-  PetscErrorCode BeginStep(const PlateFrames &frames, const double *U);
-
-  /// Before each solve of that step.
-  void BeginAttempt();
-
-  /// Contact forces and conditions are added to the local array `F` (at nodes that this rank owns) and their
-  /// absolute parts to `magnitude`. On failure `failure` says why, on every rank. Collective.
+  PetscErrorCode BeginStep(const PlateFrames &frames, const double *U) override;
+  void BeginAttempt() override;
   PetscErrorCode AddResidual(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
-                             const double *Udot, double *F, double *magnitude, std::string &failure);
-
-  /// dF/dU + shift dF/dUdot, into `A` by global indices. Collective.
+                             const double *Udot, double *F, double *magnitude, std::string &failure) override;
   PetscErrorCode AddJacobian(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
-                             const double *Udot, double shift, Mat A, std::string &failure);
-
-  /// What is remembered after a solve that ended at U: nodes that are open forget. `next` is the slave's.
-  /// Collective.
-  PetscErrorCode Advance(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
-                         const double *Udot, std::span<double> next);
-
-  /// dF / d travel and / d angle of the top plate, whose rates change by shift times as much, into local
-  /// arrays. Collective.
+                             const double *Udot, double shift, Mat A, std::string &failure) override;
   PetscErrorCode AddMotionSlopes(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
                                  const double *Udot, double shift, double *by_travel, double *by_turn,
-                                 std::string &failure);
+                                 std::string &failure) override;
+  PetscErrorCode UpdateCandidates(const PlateFrames &frames, const double *U, bool &covered) override;
+  PetscErrorCode AddPattern(Mat A) const override;
+  void AddRoundOff(double *magnitude) const override;
+  std::size_t slave_nodes() const override { return slave.node.size(); }
+  PetscErrorCode Advance(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                         const double *Udot, std::span<double> next) override;
 
   /// Where undeformed gels stand so: the share of the slave that hangs over the master's edge, or why they
   /// cannot. Collective.
   PetscErrorCode AtRest(const PlateFrames &frames, double &share, std::string &failure);
 
-  /// Finds the pairs of facets that meet at U and whether the matrix pattern covers them; if not, the next
-  /// AddPattern does, with room for further sliding. Collective.
-  PetscErrorCode UpdateCandidates(const PlateFrames &frames, const double *U, bool &covered);
-  PetscErrorCode AddPattern(Mat A) const;
-
-  /// Round-off of the gap, as a force, added to the local array.
-  void AddRoundOff(double *magnitude) const;
-
   /// Nodal results of the slave, and force [N] and torque [N mm] that the tractions transmit, signed as the
   /// plate's reactions; the same on every rank. Collective.
   PetscErrorCode Results(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
                          const double *Udot, SurfaceResults &results, double &force, double &torque);
-
-  std::size_t slave_nodes() const { return slave.node.size(); }
 
   /// Of each slave node: whether it carries a multiplier, and the constant diagonal of the mortar matrix
   /// [mm^2].

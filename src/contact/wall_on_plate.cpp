@@ -86,8 +86,10 @@ PlateNodeBlock WallOnPlate::Block(const WallNode &wall_node, const PlateFrames &
                     Vector3<double>(&U[node.traction]), wall_node.D, wall_node.c_N);
 }
 
-void WallOnPlate::AddResidual(const PlateFrames &frames, const double *U, double *F, double *magnitude) const
+PetscErrorCode WallOnPlate::AddResidual(const PlateFrames &frames, const FrictionMemory &, const double *U,
+                                        const double *, double *F, double *magnitude, std::string &)
 {
+  PetscFunctionBeginUser;
   for (const WallNode &wall_node : nodes) {
     const Node &node = mesh->nodes[wall_node.node];
     const PlateNodeBlock block = Block(wall_node, frames, U);
@@ -101,6 +103,7 @@ void WallOnPlate::AddResidual(const PlateFrames &frames, const double *U, double
       magnitude[node.traction + i] += size[i];
     }
   }
+  PetscFunctionReturn(0);
 }
 
 namespace
@@ -119,7 +122,8 @@ std::array<PetscInt, 6> unknowns_of(const Node &node)
 
 } // namespace
 
-PetscErrorCode WallOnPlate::AddJacobian(const PlateFrames &frames, const double *U, Mat A) const
+PetscErrorCode WallOnPlate::AddJacobian(const PlateFrames &frames, const FrictionMemory &, const double *U,
+                                        const double *, double, Mat A, std::string &)
 {
   Eigen::Matrix<double, 6, 6, Eigen::RowMajor> values;
   PetscFunctionBeginUser;
@@ -143,13 +147,18 @@ PetscErrorCode WallOnPlate::AddPattern(Mat A) const
   PetscFunctionReturn(0);
 }
 
-void WallOnPlate::AddTravelSlope(const PlateFrames &frames, const double *U, double *by_travel) const
+/// Of a gel between both plates, against whose frame the upper one moves.
+PetscErrorCode WallOnPlate::AddMotionSlopes(const PlateFrames &frames, const FrictionMemory &,
+                                            const double *U, const double *, double, double *by_travel,
+                                            double *, std::string &)
 {
+  PetscFunctionBeginUser;
   for (const WallNode &wall_node : nodes) {
     if (!spans_both || !wall_node.above) continue;
     const Vector3<double> slope = -Block(wall_node, frames, U).d_gap * up; // the gap grows by the travel
     for (int i = 0; i < 3; ++i) by_travel[mesh->nodes[wall_node.node].traction + i] += slope[i];
   }
+  PetscFunctionReturn(0);
 }
 
 void WallOnPlate::AddRoundOff(double *magnitude) const

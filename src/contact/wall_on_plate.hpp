@@ -2,7 +2,7 @@
 /// that owns it; nothing is communicated.
 #pragma once
 
-#include "contact/plate_frames.hpp"
+#include "contact/part.hpp"
 #include "mesh/mesh.hpp"
 
 namespace tribogel
@@ -10,23 +10,23 @@ namespace tribogel
 
 struct PlateNodeBlock;
 
-class WallOnPlate
+class WallOnPlate final : public ContactPart
 {
 public:
   /// The nodes of `wall` with a multiplier, save those in `taken` (indices into the surface).
   void SetUp(const Mesh &mesh, const Scene &scene, int body, const Surface &wall,
              const std::vector<bool> &taken);
 
-  void AddResidual(const PlateFrames &frames, const double *U, double *F, double *magnitude) const;
-  PetscErrorCode AddJacobian(const PlateFrames &frames, const double *U, Mat A) const;
-  PetscErrorCode AddPattern(Mat A) const;
-
-  /// dF / d travel of the top plate: of a gel between both plates, against whose frame it moves.
-  void AddTravelSlope(const PlateFrames &frames, const double *U, double *by_travel) const;
-  void AddRoundOff(double *magnitude) const;
-
-  /// What the plate above the body does to this rank's nodes.
-  Wrench ReactionOfTopPlate(const double *U) const;
+  PetscErrorCode AddResidual(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                             const double *Udot, double *F, double *magnitude, std::string &failure) override;
+  PetscErrorCode AddJacobian(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                             const double *Udot, double shift, Mat A, std::string &failure) override;
+  PetscErrorCode AddMotionSlopes(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                                 const double *Udot, double shift, double *by_travel, double *by_turn,
+                                 std::string &failure) override;
+  PetscErrorCode AddPattern(Mat A) const override;
+  void AddRoundOff(double *magnitude) const override;
+  Wrench ReactionOfTopPlate(const double *U) const override;
 
 private:
   struct WallNode {

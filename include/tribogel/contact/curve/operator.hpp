@@ -64,6 +64,25 @@ public:
   /// row is lambda = 0.
   void node(int a, const Friction &law, NodeBlock &block) const;
 
+  /// d residual / d (u, lambda), with d rate / d u = shift, of the nodes given to update(derivatives = true),
+  /// in blocks that add up for `emit`.
+  template <class Emit> void jacobian(const Friction &law, const Emit &emit) const
+  {
+    NodeBlock block;
+    for (int a = first_node; a < last_node; ++a) {
+      node(a, law, block);
+      ContactBlock all = unknowns_of(a, block);
+      all.values = block.jacobian;
+      emit(all);
+    }
+  }
+
+  /// Rows and columns of the blocks that `jacobian` can emit as long as `pairs` are sufficient.
+  template <class Emit> void pattern(FacetPairs pairs, int first, int last, const Emit &emit) const
+  {
+    for (int a = first; a < last; ++a) emit(unknowns_of(a, pattern(a, pairs)));
+  }
+
   NodeResult result(int a, const Friction &law) const;
 
   /// Force along z and torque about it on the slave: (sum D lambda_z, sum r D lambda_theta) of node a [N, N
@@ -95,7 +114,24 @@ public:
   }
 
 private:
+  /// Rows and columns of a node's block in the order of NodeBlock::jacobian.
+  static ContactBlock unknowns_of(int a, const NodeBlock &block)
+  {
+    ContactBlock all;
+    for (int k = 0; k < block.slave_rows; ++k)
+      all.rows.push_back({ContactUnknown::slave, block.slave_nodes[static_cast<std::size_t>(k)]});
+    for (int b : block.slave_nodes) all.columns.push_back({ContactUnknown::slave, b});
+    for (int m : block.master_nodes) {
+      all.rows.push_back({ContactUnknown::master, m});
+      all.columns.push_back({ContactUnknown::master, m});
+    }
+    all.rows.push_back({ContactUnknown::multiplier, a});
+    all.columns.push_back({ContactUnknown::multiplier, a});
+    return all;
+  }
+
   CurveGeometry geometry;
+  int first_node = 0, last_node = 0;
   ContactState<double> now;
   bool with_derivatives = false;
   std::vector<PlanePoint<double>> x, y, n;
@@ -137,6 +173,8 @@ inline MortarReport CurveContact::update(const ContactState<double> &state, Face
   const LineChain &chain = geometry.slave_chain;
   if (last < 0) last = chain.node_count();
   now = state;
+  first_node = first;
+  last_node = last;
   with_derivatives = derivatives;
   x = positions(geometry.slave, state.slave);
   y = positions(geometry.master, state.master);
