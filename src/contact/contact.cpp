@@ -125,6 +125,22 @@ PetscErrorCode Contact::AddJacobian(const PlateFrames &frames, const FrictionMem
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode Contact::AddMotionSlopes(const PlateFrames &frames, const FrictionMemory &memory,
+                                        const double *U, const double *Udot, double shift, double *by_travel,
+                                        double *by_turn, std::string &failure)
+{
+  std::size_t node = 0;
+  PetscFunctionBeginUser;
+  for (GelOnGel &gel : gels) {
+    const FrictionMemory own = memory.part(node, gel.slave_nodes());
+    if (failure.empty())
+      PetscCall(gel.AddMotionSlopes(frames, own, U, Udot, shift, by_travel, by_turn, failure));
+    node += gel.slave_nodes();
+  }
+  for (const WallOnPlate &plate : plates) plate.AddTravelSlope(frames, U, by_travel);
+  PetscFunctionReturn(0);
+}
+
 FrictionHistory Contact::InitialHistory() const
 {
   FrictionHistory history;

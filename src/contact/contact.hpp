@@ -35,6 +35,12 @@ public:
   PetscErrorCode AddJacobian(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
                              const double *Udot, double shift, Mat A, std::string &failure);
 
+  /// dF / d travel [N/mm] and / d angle [N/rad] of the top plate through the contact, whose rates change by
+  /// shift times as much, added to local arrays. Collective.
+  PetscErrorCode AddMotionSlopes(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                                 const double *Udot, double shift, double *by_travel, double *by_turn,
+                                 std::string &failure);
+
   /// What friction remembers of contacts that have just been made; empty for a law without memory.
   FrictionHistory InitialHistory() const;
 

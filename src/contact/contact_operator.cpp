@@ -6,6 +6,7 @@
 #include "tribogel/contact/curve/rolling.hpp"
 #include "tribogel/contact/surface/operator.hpp"
 #include "tribogel/contact/surface/rolling.hpp"
+#include "tribogel/contact/surface/turn_slope.hpp"
 
 #include <algorithm>
 #include <variant>
@@ -136,6 +137,27 @@ void ContactOperator::pattern(const Pairs &pairs, int first, int last, const Emi
   const auto &curve = std::get<CurveContact>(is->contact);
   for (int a = first; a < last; ++a)
     if (is->carries[a]) emit(unknowns_of(a, curve.pattern(a, pairs)));
+}
+
+/// The plate moves all of the slave's nodes alike: the sum of their columns. In the half plane an angle is an
+/// unknown over the twist length; in space it turns frames.
+void ContactOperator::motion_slopes(int first, int last, const AddSlope &add) const
+{
+  const double L = is->curve.twist_length;
+  jacobian(first, last, [&](const ContactBlock &block) {
+    for (std::size_t k = 0; k < block.columns.size(); ++k) {
+      if (block.columns[k].kind != ContactUnknown::slave) continue;
+      for (std::size_t i = 0; i < block.rows.size(); ++i) {
+        const Eigen::Index row = 3 * static_cast<Eigen::Index>(i), column = 3 * static_cast<Eigen::Index>(k);
+        add(travel, block.rows[i], block.values.block<3, 1>(row, column + 2));
+        if (is->in_half_plane()) add(turn, block.rows[i], L * block.values.block<3, 1>(row, column + 1));
+      }
+    }
+  });
+  if (is->in_half_plane()) return;
+  std::get<SurfaceContact>(is->contact)
+      .turn_slope(is->friction,
+                  [&](const ContactUnknown &row, const Vector3<double> &slope) { add(turn, row, slope); });
 }
 
 const Friction &ContactOperator::friction() const

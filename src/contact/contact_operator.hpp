@@ -22,6 +22,10 @@ public:
   using Pairs = std::vector<std::pair<int, int>>; ///< of facets, slave and master, sorted
   using Emit = std::function<void(const ContactBlock &)>;
 
+  /// Motions of the slave's plate.
+  enum Motion { travel, turn };
+  using AddSlope = std::function<void(Motion, const ContactUnknown &row, const Vector3<double> &)>;
+
   /// `on_crease` marks the nodes that a wall shares with the lower face; empty: the slave is that face.
   ContactOperator(const Mesh &mesh, const Scene &scene, const Surface &slave, std::vector<bool> on_crease);
   ContactOperator(ContactOperator &&) noexcept;
@@ -44,6 +48,10 @@ public:
   /// The Jacobian's blocks of these nodes, and the rows and columns that they can have with these pairs.
   void jacobian(int first, int last, const Emit &emit) const;
   void pattern(const Pairs &pairs, int first, int last, const Emit &emit) const;
+
+  /// d residual / d travel [N/mm] and / d angle [N/rad] of the slave's plate, whose rates change by shift
+  /// times as much, of these nodes' rows in parts that add up.
+  void motion_slopes(int first, int last, const AddSlope &add) const;
 
   const Friction &friction() const;
   const SlaveNode &constants(int a) const;

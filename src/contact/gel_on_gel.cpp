@@ -15,7 +15,7 @@ namespace
 {
 
 /// Sliding that a matrix pattern allows for, in facets. A whole facet makes the condensed matrix in space
-/// (solve/) a fifth larger and MUMPS 7 % slower than half a one; a quarter rebuilds the pattern more often
+/// (linear/) a fifth larger and MUMPS 7 % slower than half a one; a quarter rebuilds the pattern more often
 /// and gains nothing.
 constexpr double margin_in_facets = 0.5;
 
@@ -238,6 +238,17 @@ PetscErrorCode GelOnGel::AddResidual(const PlateFrames &frames, const FrictionMe
       add(6 * a + 3 + i, block.residual[block.residual.size() - 3 + i], extent[i]);
     }
   }
+  PetscCall(AddSurfaceSums(sums, F, magnitude));
+  PetscFunctionReturn(0);
+}
+
+/// Two lists of sums over the ranks, each of forces and conditions of the slave's nodes, then forces of the
+/// master's, to this rank's nodes in two local arrays.
+PetscErrorCode GelOnGel::AddSurfaceSums(std::vector<double> &sums, double *one, double *other) const
+{
+  const std::size_t slaves = slave.node.size(), masters = mesh->master.node.size();
+  const double *force = sums.data(), *size_of = sums.data() + sums.size() / 2;
+  PetscFunctionBeginUser;
   PetscCallMPI(
       MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, comm));
   for (std::size_t n = 0; n < slaves + masters; ++n) {
@@ -246,13 +257,40 @@ PetscErrorCode GelOnGel::AddResidual(const PlateFrames &frames, const FrictionMe
     const Node &place = mesh->nodes[node.local];
     const std::size_t row = n < slaves ? 6 * n : 6 * slaves + 3 * (n - slaves);
     for (int i = 0; i < 3; ++i) {
-      F[place.displacement + i] += force[row + i];
-      magnitude[place.displacement + i] += size_of[row + i];
+      one[place.displacement + i] += force[row + i];
+      other[place.displacement + i] += size_of[row + i];
       if (place.traction < 0) continue;
-      F[place.traction + i] += force[row + 3 + i];
-      magnitude[place.traction + i] += size_of[row + 3 + i];
+      one[place.traction + i] += force[row + 3 + i];
+      other[place.traction + i] += size_of[row + 3 + i];
     }
   }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode GelOnGel::AddMotionSlopes(const PlateFrames &frames, const FrictionMemory &memory,
+                                         const double *U, const double *Udot, double shift, double *by_travel,
+                                         double *by_turn, std::string &failure)
+{
+  const std::size_t slaves = slave.node.size(), length = 6 * slaves + 3 * mesh->master.node.size();
+  ContactState<double> state;
+  PetscFunctionBeginUser;
+  PetscCall(Gather(frames, U, Udot, shift, state, memory));
+  PetscCall(Evaluate(state, true, failure));
+  if (!failure.empty()) PetscFunctionReturn(0);
+  std::vector<double> sums(2 * length, 0.0);
+  model->motion_slopes(
+      first, last,
+      [&](ContactOperator::Motion motion, const ContactUnknown &row, const Vector3<double> &slope) {
+        const auto node = static_cast<std::size_t>(row.node);
+        if (row.kind == ContactUnknown::multiplier && !slave.node[node].multiplier) return;
+        const std::size_t place = row.kind == ContactUnknown::slave        ? 6 * node
+                                  : row.kind == ContactUnknown::multiplier ? 6 * node + 3
+                                                                           : 6 * slaves + 3 * node;
+        for (int i = 0; i < 3; ++i)
+          sums[(motion == ContactOperator::turn ? length : 0) + place + static_cast<std::size_t>(i)] +=
+              slope[i];
+      });
+  PetscCall(AddSurfaceSums(sums, by_travel, by_turn));
   PetscFunctionReturn(0);
 }
 

@@ -49,6 +49,12 @@ public:
   PetscErrorCode Advance(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
                          const double *Udot, std::span<double> next);
 
+  /// dF / d travel and / d angle of the top plate, whose rates change by shift times as much, into local
+  /// arrays. Collective.
+  PetscErrorCode AddMotionSlopes(const PlateFrames &frames, const FrictionMemory &memory, const double *U,
+                                 const double *Udot, double shift, double *by_travel, double *by_turn,
+                                 std::string &failure);
+
   /// Where undeformed gels stand so: the share of the slave that hangs over the master's edge, or why they
   /// cannot. Collective.
   PetscErrorCode AtRest(const PlateFrames &frames, double &share, std::string &failure);
@@ -96,6 +102,7 @@ private:
   PetscErrorCode Evaluate(const ContactState<double> &state, bool derivatives, std::string &failure);
   void Indices(const std::vector<ContactUnknown> &unknowns, std::vector<PetscInt> &indices) const;
   PetscErrorCode Add(const ContactBlock &block, Mat A) const;
+  PetscErrorCode AddSurfaceSums(std::vector<double> &sums, double *one, double *other) const;
   PetscErrorCode ShareFailure(const MortarReport &report, std::string &failure);
 
   MPI_Comm comm = MPI_COMM_NULL;

@@ -2,19 +2,14 @@
 #pragma once
 
 #include "tribogel/math/tensor.hpp"
+#include "tribogel/schedule/plate_motion.hpp"
 
 #include <array>
 
 namespace tribogel
 {
 
-struct PlateFrames {
-  double top_travel = 0;            ///< along z since t = 0 [mm]
-  double top_travel_rate = 0;       ///< [mm/s]
-  double top_rate = 0;              ///< about z [rad/s]
-  double bottom_rate = 0;           ///< [rad/s]
-  double top_rotation = 0;          ///< [rad]
-  double bottom_rotation = 0;       ///< [rad]
+struct PlateFrames : PlateMotion {
   std::array<double, 2> top_axis{}; ///< where the top plate's axis stands, the bottom's at (0, 0) [mm]
   double step = 1; ///< of time [s]: what turns a sliding velocity into a distance; infinite in steady states
                    ///< of the half plane

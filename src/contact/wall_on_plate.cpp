@@ -143,6 +143,15 @@ PetscErrorCode WallOnPlate::AddPattern(Mat A) const
   PetscFunctionReturn(0);
 }
 
+void WallOnPlate::AddTravelSlope(const PlateFrames &frames, const double *U, double *by_travel) const
+{
+  for (const WallNode &wall_node : nodes) {
+    if (!spans_both || !wall_node.above) continue;
+    const Vector3<double> slope = -Block(wall_node, frames, U).d_gap * up; // the gap grows by the travel
+    for (int i = 0; i < 3; ++i) by_travel[mesh->nodes[wall_node.node].traction + i] += slope[i];
+  }
+}
+
 void WallOnPlate::AddRoundOff(double *magnitude) const
 {
   for (const WallNode &wall_node : nodes)

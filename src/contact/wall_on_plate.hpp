@@ -20,6 +20,9 @@ public:
   void AddResidual(const PlateFrames &frames, const double *U, double *F, double *magnitude) const;
   PetscErrorCode AddJacobian(const PlateFrames &frames, const double *U, Mat A) const;
   PetscErrorCode AddPattern(Mat A) const;
+
+  /// dF / d travel of the top plate: of a gel between both plates, against whose frame it moves.
+  void AddTravelSlope(const PlateFrames &frames, const double *U, double *by_travel) const;
   void AddRoundOff(double *magnitude) const;
 
   /// What the plate above the body does to this rank's nodes.

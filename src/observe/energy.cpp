@@ -7,7 +7,7 @@ PetscErrorCode AddEnergies(const Problem &problem, const Measurement *last, cons
                            const EnergyBalance &before, EnergyBalance &after)
 {
   const State &state = problem.stepper.state;
-  const Phase &phase = problem.stepper.phase();
+  const PlateMotion motion = problem.stepper.motion(state.time);
   double sums[2] = {state.stored, state.dissipated};
   PetscFunctionBeginUser;
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<Vec>(state.U)));
@@ -19,8 +19,8 @@ PetscErrorCode AddEnergies(const Problem &problem, const Measurement *last, cons
   const double force = 0.5 * (last->normal_force + now.normal_force),
                torque = 0.5 * (last->torque + now.torque);
   const double power = 0.5 * (last->friction_power + now.friction_power);
-  after.work += state.step * (force * phase.approach_rate() +
-                              torque * (phase.rate - problem.system.scene.bottom_plate_rate));
+  after.work +=
+      state.step * (torque * (motion.top_rate - motion.bottom_rate) - force * motion.top_travel_rate);
   after.friction += state.step * power;
   PetscFunctionReturn(0);
 }

@@ -41,8 +41,7 @@ void read_off(const Problem &problem, const Wrench &reaction, Measurement &m)
   const Vector3<double> centre(0, 0, problem.system.plate_height(problem.stepper.plates_now()));
   const Vector3<double> force = -reaction.force, moment = -(reaction.moment - centre.cross(reaction.force));
   // The frame of a gel that spans both plates does not turn.
-  const double angle =
-      problem.system.scene.has_top() ? problem.stepper.phase().rotation(problem.stepper.state.time) : 0;
+  const double angle = problem.system.scene.has_top() ? problem.stepper.plates_now().top_rotation : 0;
   const double c = std::cos(angle), s = std::sin(angle);
   m.transverse_force = {c * force[0] - s * force[1], s * force[0] + c * force[1]};
   m.bending_moment = {c * moment[0] - s * moment[1], s * moment[0] + c * moment[1]};
@@ -75,8 +74,8 @@ void average(const Problem &problem, const std::vector<SurfaceResults> &surfaces
   const double N = m.normal_force;
   m.contact_radius = radius;
   if (!(N > 0)) return;
-  m.mu_apparent =
-      apparent_coefficient(scene.friction, m.torque, N, problem.system.face, problem.stepper.phase().rate);
+  m.mu_apparent = apparent_coefficient(scene.friction, m.torque, N, problem.system.face,
+                                       problem.stepper.plates_now().top_rate);
   m.mu_gong = gong_coefficient(m.torque, N, problem.system.face);
   m.mu_mean = sum / count;
   m.mu_area_weighted = area_sum / area;
@@ -142,7 +141,7 @@ void settle_on_axis(const std::vector<PlanePoint<double>> &x, const ProfileRow *
 void tabulate(const Problem &problem, const SurfaceResults &surface, const char *part,
               std::vector<ProfileRow> &profile)
 {
-  const double rotation = problem.stepper.phase().rotation(problem.stepper.state.time);
+  const double rotation = problem.stepper.plates_now().top_rotation;
   const std::size_t first = profile.size();
   for (std::size_t a = 0; a < surface.nodes.size(); ++a) {
     if (!surface.on_crease.empty() && surface.on_crease[a]) continue; // a node of the face
@@ -172,7 +171,7 @@ void tabulate(const Problem &problem, const std::vector<SurfaceResults> &surface
   for (const SurfaceResults &surface : surfaces)
     tabulate(problem, surface, &surface == &surfaces.front() ? "face" : "wall", profile);
   if (!problem.system.scene.has_bottom()) return;
-  const double rotation = problem.system.scene.bottom_plate_rate * problem.stepper.state.time;
+  const double rotation = problem.stepper.plates_now().bottom_rotation;
   const std::vector<SurfacePlace> &master = surfaces.front().master;
   const std::size_t first = profile.size();
   for (const SurfacePlace &place : master) profile.push_back(row_at("bottom", "face", place, rotation));

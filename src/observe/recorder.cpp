@@ -175,13 +175,13 @@ PetscErrorCode Recorder::Record(const Problem &problem, const StepReport &report
   std::vector<ProfileRow> surfaces;
   PetscFunctionBeginUser;
   const State &state = problem.stepper.state;
-  const Phase &phase = problem.stepper.phase();
+  const PlateMotion motion = problem.stepper.motion(state.time);
   PetscCall(Measure(problem, row.measurement, report.ends_phase ? &surfaces : nullptr));
   row.time = state.time;
   row.phase = state.phase + 1;
-  row.approach = phase.approach(state.time);
-  row.rotation = phase.rotation(state.time);
-  row.rate = phase.rate;
+  row.approach = -motion.top_travel;
+  row.rotation = motion.top_rotation;
+  row.rate = motion.top_rate;
   row.step = state.step;
   row.report = report;
   PetscCall(AddEnergies(problem, rows.empty() ? nullptr : &rows.back().measurement, row.measurement,

@@ -80,7 +80,7 @@ namespace
 
 /// Displacement, or its rate, of a node on the top plate that moves, for a body held by the other
 /// plate. In the half plane an angle is an unknown; in 3-D the plate's rotation is (Q - 1) X.
-std::array<double, 3> driven_displacement(const PlateFrames &plates, int dim, double L,
+std::array<double, 3> driven_displacement(const PlateMotion &plates, int dim, double L,
                                           const std::array<double, 3> &X)
 {
   const double angle = plates.top_rotation, c = std::cos(angle), s = std::sin(angle);
@@ -88,7 +88,7 @@ std::array<double, 3> driven_displacement(const PlateFrames &plates, int dim, do
   return {c * X[0] - s * X[1] - X[0], s * X[0] + c * X[1] - X[1], plates.top_travel};
 }
 
-std::array<double, 3> driven_rate(const PlateFrames &plates, int dim, double L,
+std::array<double, 3> driven_rate(const PlateMotion &plates, int dim, double L,
                                   const std::array<double, 3> &X)
 {
   const double angle = plates.top_rotation, c = std::cos(angle), s = std::sin(angle);
@@ -101,7 +101,7 @@ std::array<double, 3> driven_rate(const PlateFrames &plates, int dim, double L,
 
 /// Unknowns are measured from the body's own plate, so that a bonded node does not move; only a gel that
 /// spans both plates sees the top plate move.
-void System::SetBoundary(const PlateFrames &plates, double *U, double *Udot) const
+void System::SetBoundary(const PlateMotion &plates, double *U, double *Udot) const
 {
   const double L = scene.twist_length();
   for (const Node &node : mesh.nodes) {
@@ -133,7 +133,7 @@ Wrench System::plate_wrench(const double *U, const double *F) const
   return wrench;
 }
 
-double System::plate_height(const PlateFrames &plates) const
+double System::plate_height(const PlateMotion &plates) const
 {
   return scene.has_top() ? plate_at_rest : plate_at_rest + plates.top_travel;
 }
@@ -201,6 +201,20 @@ PlateLoads System::load_scales(const PlateLoads &largest) const
   const double bar = 3 * scene.softer_modulus() * std::numbers::pi * radius * radius * expected_compression();
   return {std::max({largest[0], bar, negligible * largest[1] / L}),
           std::max(largest[1], negligible * largest[0] * L)};
+}
+
+PetscErrorCode System::AddMotionSlopes(const EulerSolve &solve, const double *U, const double *Udot,
+                                       double shift, double *by_travel, double *by_turn)
+{
+  PetscFunctionBeginUser;
+  if (steady()) {
+    Udot = nullptr;
+    shift = 0;
+  }
+  if (contact)
+    PetscCall(contact->AddMotionSlopes(solve.plates, solve.friction, U, Udot, shift, by_travel, by_turn,
+                                       failure.contact));
+  PetscFunctionReturn(0);
 }
 
 /// PETSc 3.18 inserts a new nonzero by reallocating, so the pattern is complete before the first value.

@@ -54,8 +54,14 @@ public:
   PetscErrorCode AddJacobian(const EulerSolve &solve, const double *U, const double *Udot, double shift,
                              Mat A);
 
+  /// dF / d travel [N/mm] and / d angle [N/rad] of the top plate through the contact, whose rates change by
+  /// shift times as much, added to local arrays: all of it where each gel is measured from its own plate.
+  /// Collective.
+  PetscErrorCode AddMotionSlopes(const EulerSolve &solve, const double *U, const double *Udot, double shift,
+                                 double *by_travel, double *by_turn);
+
   /// Prescribed displacements and rates (Udot may be null) in local arrays.
-  void SetBoundary(const PlateFrames &plates, double *U, double *Udot) const;
+  void SetBoundary(const PlateMotion &plates, double *U, double *Udot) const;
 
   /// Gives a new matrix room for the bulk and for all pairs of facets that may meet soon. Collective.
   PetscErrorCode SetUpMatrix(Mat A);
@@ -78,7 +84,7 @@ public:
 
   /// Where the top plate's face meets its axis, in the frame of its gel's unknowns: height above its origin
   /// [mm].
-  double plate_height(const PlateFrames &plates) const;
+  double plate_height(const PlateMotion &plates) const;
 
   double expected_compression() const;                     ///< of the gels, the largest of the schedule
   PlateLoads load_scales(const PlateLoads &largest) const; ///< what errors of N and T are compared with

@@ -45,16 +45,15 @@ FrictionMemory Stepper::friction_now() const
   return {state.friction_history.values, {system.steady() ? std::numeric_limits<double>::infinity() : 0}};
 }
 
+PlateMotion Stepper::motion(double time) const
+{
+  return plate_motion(phase(), scene.bottom_plate_rate, time);
+}
+
 PlateFrames Stepper::plates(double time, double step) const
 {
-  const Phase &now = phase();
-  PlateFrames frames;
-  frames.top_travel = -now.approach(time);
-  frames.top_travel_rate = system.steady() ? 0 : -now.approach_rate();
-  frames.top_rate = now.rate;
-  frames.bottom_rate = scene.bottom_plate_rate;
-  frames.top_rotation = now.rotation(time);
-  frames.bottom_rotation = scene.bottom_plate_rate * time;
+  PlateFrames frames{motion(time)};
+  if (system.steady()) frames.top_travel_rate = 0;
   frames.top_axis = scene.misalignment.offset;
   if (step > 0) frames.step = step;
   // In space a node near the axis may lie on either side of it, and its velocity turns round: what holds it
@@ -264,7 +263,7 @@ std::string Stepper::Explain(TSConvergedReason reason) const
   if (!last_failure.words.empty()) text << ": " << last_failure.words;
   text << " (" << TSConvergedReasons[reason] << ")";
   if (last_failure.place) {
-    const double compression = (phase().approach(state.time) - scene.initial_gap) / scene.gel_height();
+    const double compression = (-motion(state.time).top_travel - scene.initial_gap) / scene.gel_height();
     if (const std::string end = describe_end(scene, *last_failure.place, compression); !end.empty())
       text << ". " << end;
   }

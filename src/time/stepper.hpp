@@ -57,7 +57,8 @@ public:
   PetscErrorCode LocalState(Vec U, Vec Udot) const;
 
   const Phase &phase() const { return scene.schedule[state.phase]; }
-  PlateFrames plates(double time, double step) const; ///< at `time`, for a step of that length
+  PlateMotion motion(double time) const;              ///< of the plates
+  PlateFrames plates(double time, double step) const; ///< as the contact sees it in a step of that length
   PlateFrames plates_now() const { return plates(state.time, state.step); } ///< in the accepted state
   FrictionMemory friction_now() const; ///< what the contact conditions of the accepted state are told
   EulerSolve solve(double time) const; ///< at hand, that ends at `time`

@@ -78,6 +78,10 @@ public:
   /// Rows and columns of the blocks that `jacobian` can emit as long as `pairs` are sufficient.
   template <class Emit> void pattern(const Pairs &pairs, int first, int last, const Emit &emit) const;
 
+  /// d residual / d angle of the slave's plate, whose rate changes by shift times as much: `add` gets rows
+  /// and parts that add up (surface/turn_slope.hpp).
+  template <class Add> void turn_slope(const Friction &law, const Add &add) const;
+
   NodeResult result(int a, const Friction &law) const;
 
   /// Force along z and torque about the slave's axis on the slave's node a [N, N mm].
