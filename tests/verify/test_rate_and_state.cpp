@@ -53,7 +53,7 @@ Scene rings()
 }
 
 /// The friction coefficient in time, as the torque shows it.
-std::vector<std::array<double, 2>> measured(const Scene &scene)
+std::vector<std::array<double, 2>> measured(const Scene &scene, std::vector<std::string> *notices = nullptr)
 {
   std::vector<MeridianBlock> blocks = meridian_blocks(scene);
   for (MeridianBlock &ring : blocks) {
@@ -64,6 +64,7 @@ std::vector<std::array<double, 2>> measured(const Scene &scene)
   Problem problem;
   Recorder recorder("");
   run(scene, blocks, problem, recorder);
+  if (notices) *notices = recorder.notices;
   std::vector<std::array<double, 2>> curve;
   for (const HistoryRow &row : recorder.rows) {
     const Measurement &m = row.measurement;
@@ -72,12 +73,18 @@ std::vector<std::array<double, 2>> measured(const Scene &scene)
   return curve;
 }
 
+/// Of the gels that are pressed [MPa/mm].
+double stiffness()
+{
+  return state.shear_stiffness() / (state.axial * heights);
+}
+
 /// mu and theta of spring and slider after `duration` at V.
 using SpringSlider = std::array<double, 2>;
 void go_on(SpringSlider &at, double V, double duration)
 {
   namespace odeint = boost::numeric::odeint;
-  const double k = state.shear_stiffness() / (state.axial * heights);
+  const double k = stiffness();
   odeint::integrate_adaptive(
       odeint::make_controlled<odeint::runge_kutta_dopri5<SpringSlider>>(1e-11, 1e-11),
       [&](const SpringSlider &x, SpringSlider &rate, double) {
@@ -157,6 +164,26 @@ TEST(rate_and_state, IsTheSteadyStateOfASteadySchedule)
       EXPECT_NEAR(mu, mu_0 + (a - b) * std::log(speeds[t == 2] / v_0), 1e-7);
     }
   EXPECT_EQ(curve.back()[0], 2);
+}
+
+/// Sliding that weakens is stable where the gels are stiffer than k_c = p (b - a)/L (Ruina 1983); the program
+/// says where they are not.
+TEST(rate_and_state, SaysWhereTheGelsAreTooSoftToSlideSteadily)
+{
+  for (const double ratio : {0.9, 1.1}) { // k_c over the gels' stiffness
+    Scene scene = rings();
+    RateAndStateFriction<double> law;
+    law.set({{mu_0}, {a}, {b}, {state.pressure * (b - a) / (ratio * stiffness())}, {v_0}, {theta_0}});
+    scene.friction = law;
+    scene.schedule_kind = ScheduleKind::steady;
+    scene.schedule = schedule_from_rates({1}, {compression * heights}, {speeds[0] / mean_arm()});
+    std::vector<std::string> notices;
+    measured(scene, &notices);
+    ASSERT_EQ(notices.size(), ratio > 1 ? 1u : 0u);
+    if (ratio > 1) {
+      EXPECT_NE(notices[0].find("sticks and slips"), std::string::npos) << notices[0];
+    }
+  }
 }
 
 } // namespace tribogel::test
