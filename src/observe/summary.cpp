@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace tribogel
 {
@@ -104,6 +106,34 @@ Json describe(const ErrorEstimate &estimate, const std::vector<PhaseEnd> &ends)
   return json;
 }
 
+/// The law with its numbers, and its curve mu(v), that of steady sliding, for drawings: three decades below
+/// the slowest rim's speed up to the fastest, under the mean pressure at the end.
+Json describe_law(const Scene &scene, const Recorder &recorder)
+{
+  constexpr int points = 61;
+  const FrictionLaw &law = *scene.friction.law();
+  Json json{{"name", law.declaration().name},
+            {"in_numbers", law.in_numbers()},
+            {"source", law.declaration().source}};
+  double slowest = std::numeric_limits<double>::infinity(), fastest = 0;
+  for (const Phase &phase : scene.schedule) {
+    const double rim = std::abs(phase.rate) * scene.upper_gel().radius;
+    if (rim > 0) slowest = std::min(slowest, rim);
+    fastest = std::max(fastest, rim);
+  }
+  const Measurement last = recorder.rows.empty() ? Measurement{} : recorder.rows.back().measurement;
+  const double pressure = last.normal_force / (std::numbers::pi * last.contact_radius * last.contact_radius);
+  if (!(fastest > 0 && pressure > 0 && std::isfinite(pressure))) return json;
+  json["pressure_MPa"] = pressure;
+  const double lowest = 1e-3 * slowest;
+  for (int k = 0; k < points; ++k) {
+    const double v = lowest * std::pow(fastest / lowest, static_cast<double>(k) / (points - 1));
+    json["speed_mm_per_s"].push_back(v);
+    json["mu"].push_back(number(scene.friction.coefficient(v, pressure)));
+  }
+  return json;
+}
+
 std::string petsc_version()
 {
   char text[256];
@@ -121,6 +151,8 @@ Json summary_of(const Problem &problem, const Recorder &recorder, const RunOutco
   json["reason"] = outcome.reason;
   json["time_s"] = problem.stepper.state.time;
   for (const auto &[name, value] : options) json["options"][name] = value;
+  if (problem.system.scene.has_contact() && problem.system.scene.friction.law())
+    json["friction_law"] = describe_law(problem.system.scene, recorder);
   json["warnings"] = warnings;
   json["notices"] = recorder.notices;
   json["phases"] = phase_ends(recorder);

@@ -17,6 +17,8 @@ NO_MU = "nan,nan,nan,nan,nan"
 FIRST = f"0,1,0,0,0,0,0,0,{NO_MU},0,0,0,0,0,0,0\n"
 PRESSED = f"2.5,1,0.3,0,0,11.5,0,9.5,{NO_MU},3,3,2.5,11.5,0,1e-9,0\n"
 TURNED = "7.5,2,0.3,0.15,0.03,10.7,0.2,9.5,3e-3,2.5e-3,2.7e-3,2.6e-3,2.9e-3,4,4,5,10.7,0.2,1e-9,1e-9\n"
+LAW = ('{"friction_law": {"name": "power", "pressure_MPa": 0.03, "speed_mm_per_s": [0.01, 0.1, 1],'
+       ' "mu": [null, 2e-3, 9e-2]}}')
 SURFACES = "".join(f"{time},{phase},{surface},{r},0,0,{1.02 * r},{turn},{-0.2 + r / 90},{rest}\n"
                    for time, phase, turn in ((2.5, 1, 0), (7.5, 2, 0.15))
                    for surface, rest in (("top", "0.04,0,2e-4,0.03,3e-3,slip,face"),
@@ -56,8 +58,14 @@ class Plot(unittest.TestCase):
     def test_whole_run(self):
         whole = {"history.csv": HISTORY + FIRST + PRESSED + TURNED, "profile.csv": PROFILE + SURFACES}
         with_surfaces = self.draws(whole)["picture.png"]
+        with_law = whole | {"summary.json": LAW}
+        self.assertNotEqual(self.draws(with_law)["picture.png"], with_surfaces)
+        for torn in ("", LAW[:40], LAW.replace('"mu"', '"nu"')):
+            self.assertEqual(self.draws(whole | {"summary.json": torn})["picture.png"], with_surfaces)
         del whole["profile.csv"]
         self.assertNotEqual(self.draws(whole)["picture.png"], with_surfaces)
+        del with_law["profile.csv"]
+        self.draws(with_law)
 
     def test_output_path(self):
         self.draws({"history.csv": HISTORY + FIRST + PRESSED}, "--output", "fig.06.png", name="fig.06")

@@ -5,12 +5,13 @@
 Reads history.csv (needed) and profile.csv (contact surfaces; drawn when there) and works on runs that died
 early. Left: axial force, torque and friction coefficients over time. Right: the same with each phase
 stretched to equal width and its own logarithmic time, because transients last seconds and a hold an hour.
-Below: the contact surfaces and the pressure. PATH is the picture's name; its ending, if any, is replaced by
+Below: the law of friction (from summary.json), the contact surfaces and the pressure. PATH is the picture's name; its ending, if any, is replaced by
 .png and .pdf.
 
 The interpreter is Debian's own: matplotlib is Debian's python3-matplotlib, which another python3 found first
 in PATH does not see.
 """
+import json
 import math
 import pathlib
 
@@ -132,6 +133,30 @@ def draw_by_phase(axes, run, curves, stretched, name_phases):
     frame(axes)
 
 
+def friction_law(directory):
+    """The law's curve from summary.json; None if the run wrote none, or has no law or no rotation."""
+    try:
+        summary = json.loads((directory / "summary.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    law = summary.get("friction_law")
+    return law if law and "mu" in law else None
+
+
+def draw_law(axes, law):
+    """What was put in, at the speeds of the schedule: a straight line in the logarithm of v is a power."""
+    mu = np.array([math.nan if value is None else value for value in law["mu"]])
+    axes.plot(law["speed_mm_per_s"], mu, color="#4a4a4a", linewidth=1.8)
+    axes.set_xscale("log")
+    sizes = np.abs(mu[np.isfinite(mu)])
+    if len(sizes) and sizes.min() > 0 and sizes.max() > 20 * sizes.min():
+        axes.set_yscale("log")
+    axes.set_xlabel("sliding speed v  (mm/s)")
+    axes.set_ylabel("friction coefficient of the law  (1)")
+    axes.set_title(f"Law {law['name']}, at p = {law['pressure_MPa']:.3g} MPa", fontsize=10)
+    frame(axes)
+
+
 def draw_surfaces(axes, run):
     """Undeformed and deformed contact surfaces at the last phase end, like the paper's Fig. 8."""
     profile, history = run.profile, run.history
@@ -221,7 +246,8 @@ def draw(run):
     if coefficients:
         quantities.append(("friction coefficient  (1)", coefficients))
     surfaces = run.profile is not None and (run.profile["surface"] == "top").any()
-    heights = [1.0] * len(quantities) + ([1.25] if surfaces else [])
+    law = friction_law(run.directory)
+    heights = [1.0] * len(quantities) + ([1.25] if surfaces or law else [])
     figure = plt.figure(figsize=(14, 1.0 + 3.5 * sum(heights)), layout="constrained")
     grid = figure.add_gridspec(len(heights), 2, height_ratios=heights, width_ratios=(1, 1.7), hspace=0.06,
                                wspace=0.03)
@@ -235,9 +261,14 @@ def draw(run):
         if not label.startswith("axial"):
             decade_scale(right, np.concatenate([values[run.ends] for values, *_ in curves]))
         draw_by_phase(right, run, curves, stretched, row == 0)
+    panels = [lambda axes: draw_law(axes, law)] if law else []
     if surfaces:
-        draw_pressure(figure.add_subplot(grid[-1, 0]), run)
-        draw_surfaces(figure.add_subplot(grid[-1, 1]), run)
+        panels += [lambda axes: draw_pressure(axes, run), lambda axes: draw_surfaces(axes, run)]
+    if panels:
+        widths = (1, 1, 1.4)[-len(panels):] if surfaces else (1,)
+        last = grid[-1, :].subgridspec(1, len(panels), width_ratios=widths)
+        for column, panel in enumerate(panels):
+            panel(figure.add_subplot(last[0, column]))
     figure.align_ylabels()
     figure.suptitle(f"{run.directory.resolve().name}:  {len(run.phases)} phase{'s' * (len(run.phases) > 1)}, "
                     f"{len(h['time_s']) - 1} steps, t = {h['time_s'][-1]:g} s", fontsize=12)

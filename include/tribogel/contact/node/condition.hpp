@@ -43,6 +43,10 @@
 /// spring (none with the term) and took twice the iterations. Where tau_1 < 0 (weakening) the term would hide
 /// the slip solution, so only its positive part is taken.
 ///
+/// A law with memory may fall within a solve, by no more than f = steepest_fall(p) per speed (b p h/L of rate
+/// and state). c_T is then raised by 2 f: b + tau_s(V) + k V rises, and the slope of the strength in |s| lies
+/// between -1 and 1.
+///
 /// Choices where the equation has a kink; value and derivative are always those of one definite side:
 /// - lambda_N = c_N g is closed: two surfaces that just touch start with the row g = 0.
 /// - |s| = b > 0 sticks.
