@@ -100,7 +100,8 @@ std::array<double, 3> driven_rate(const PlateMotion &plates, int dim, double L,
 } // namespace
 
 /// Unknowns are measured from the body's own plate, so that a bonded node does not move; only a gel that
-/// spans both plates sees the top plate move.
+/// spans both plates sees the top plate move. With contact the plates' motion is in the frames in which the
+/// contact is evaluated (contact/node/state.hpp).
 void System::SetBoundary(const PlateMotion &plates, double *U, double *Udot) const
 {
   const double L = scene.twist_length();

@@ -139,7 +139,8 @@ PetscErrorCode Step(TS ts)
         ts->time_step = next;
         break;
       }
-      PetscCall(VecCopy(data.before, ts->vec_sol));
+      PetscCall(
+          VecCopy(data.before, ts->vec_sol)); // all else that evolves is in State, which nothing has touched
       ts->time_step = next;
     }
     accepted = PETSC_FALSE;

@@ -1,4 +1,4 @@
-/// The friction laws that the program offers. A new one is a header beside this, and its line in `Laws`.
+/// The friction laws that the program offers. A new one is a header beside this, and its line in `known_laws`.
 #pragma once
 
 #include "tribogel/friction/adsorption_viscous.hpp"
