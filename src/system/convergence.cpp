@@ -1,6 +1,7 @@
 /// When is a residual small? Each group of rows is held against the forces that meet in it, and against the
 /// round-off that these forces carry: no dimension enters, and a body without load (no force to be relative
 /// to) converges too.
+#include "support/petsc_arrays.hpp"
 #include "system/system.hpp"
 
 #include <algorithm>
@@ -22,24 +23,22 @@ constexpr double round_off_allowance = 16;
 /// What the error estimates find below that is no error of a step.
 PetscErrorCode System::MeasureRoundOff()
 {
-  Vec local;
-  PetscScalar *values;
-  const PetscScalar *floors;
+  LocalVector local;
+  ConstArray floors;
   double sums[4] = {0, 0, 0, static_cast<double>(bulk->InitialHistory().size())};
   PetscFunctionBeginUser;
-  PetscCall(DMGetLocalVector(mesh.dm, &local));
-  PetscCall(VecZeroEntries(local));
-  PetscCall(VecGetArray(local, &values));
-  bulk->AddRoundOff(values);
-  if (contact) contact->AddRoundOff(values);
-  PetscCall(VecRestoreArray(local, &values));
+  PetscCall(local.GetZero(mesh.dm));
+  {
+    MutableArray values;
+    PetscCall(values.Get(local));
+    bulk->AddRoundOff(values);
+    if (contact) contact->AddRoundOff(values);
+  }
   PetscCall(VecZeroEntries(rows.round_off));
   PetscCall(DMLocalToGlobal(mesh.dm, local, ADD_VALUES, rows.round_off));
-  PetscCall(DMRestoreLocalVector(mesh.dm, &local));
-  PetscCall(VecGetArrayRead(rows.round_off, &floors));
+  PetscCall(floors.Get(rows.round_off));
   for (std::size_t k = 0; k < rows.group.size(); ++k)
     if (rows.group[k] < 3) sums[static_cast<std::size_t>(rows.group[k])] += floors[k] * floors[k];
-  PetscCall(VecRestoreArrayRead(rows.round_off, &floors));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, comm()));
   least.loads = {round_off_allowance * std::sqrt(sums[2]),
                  round_off_allowance * std::sqrt(sums[0] + sums[1]) * scene.twist_length()};
@@ -86,12 +85,12 @@ PetscErrorCode System::LocateWorst(const double *f, WorstResidual &worst) const
 PetscErrorCode System::JudgeResidual(Vec F, double tolerance, bool has_iterated, WorstResidual &worst,
                                      bool &converged) const
 {
-  const PetscScalar *f, *sizes, *floors;
+  ConstArray f, sizes, floors;
   double sums[3 * residual_groups] = {};
   PetscFunctionBeginUser;
-  PetscCall(VecGetArrayRead(F, &f));
-  PetscCall(VecGetArrayRead(rows.magnitude, &sizes));
-  PetscCall(VecGetArrayRead(rows.round_off, &floors));
+  PetscCall(f.Get(F));
+  PetscCall(sizes.Get(rows.magnitude));
+  PetscCall(floors.Get(rows.round_off));
   for (std::size_t k = 0; k < rows.group.size(); ++k) {
     const int g = rows.group[k];
     sums[3 * g] += f[k] * f[k];
@@ -117,9 +116,6 @@ PetscErrorCode System::JudgeResidual(Vec F, double tolerance, bool has_iterated,
   }
   converged = worst.ratio <= 1 && (has_iterated || !needs_the_floor);
   if (worst.group >= 0 && !converged) PetscCall(LocateWorst(f, worst));
-  PetscCall(VecRestoreArrayRead(rows.round_off, &floors));
-  PetscCall(VecRestoreArrayRead(rows.magnitude, &sizes));
-  PetscCall(VecRestoreArrayRead(F, &f));
   PetscFunctionReturn(0);
 }
 

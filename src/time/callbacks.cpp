@@ -1,6 +1,8 @@
 /// What PETSc calls, in the order in which a step calls it.
 #include "time/stepper.hpp"
 
+#include "support/petsc_arrays.hpp"
+
 #include <cmath>
 #include <limits>
 
@@ -30,13 +32,11 @@ struct StepperCallbacks {
   static PetscErrorCode Boundary(DM, PetscReal time, Vec U, Vec Udot, void *context)
   {
     const auto &stepper = *static_cast<Stepper *>(context);
-    PetscScalar *u, *rate = nullptr;
+    MutableArray u, rate; // null without Udot
     PetscFunctionBeginUser;
-    PetscCall(VecGetArray(U, &u));
-    if (Udot) PetscCall(VecGetArray(Udot, &rate));
+    PetscCall(u.Get(U));
+    if (Udot) PetscCall(rate.Get(Udot));
     stepper.system.SetBoundary(stepper.plates(time, 0), u, rate);
-    if (Udot) PetscCall(VecRestoreArray(Udot, &rate));
-    PetscCall(VecRestoreArray(U, &u));
     PetscFunctionReturn(0);
   }
 
@@ -45,24 +45,20 @@ struct StepperCallbacks {
   {
     auto &stepper = *static_cast<Stepper *>(context);
     System &system = stepper.system;
-    const PetscScalar *u, *rate;
-    PetscScalar *f, *sizes;
-    Vec local_sizes;
+    LocalVector local_sizes;
     PetscFunctionBeginUser;
-    PetscCall(DMGetLocalVector(dm, &local_sizes));
-    PetscCall(VecZeroEntries(local_sizes));
-    PetscCall(VecGetArrayRead(U, &u));
-    PetscCall(VecGetArrayRead(Udot, &rate));
-    PetscCall(VecGetArray(F, &f));
-    PetscCall(VecGetArray(local_sizes, &sizes));
-    PetscCall(system.AddResidual(stepper.solve(time), u, rate, f, sizes));
-    PetscCall(VecRestoreArray(local_sizes, &sizes));
-    PetscCall(VecRestoreArray(F, &f));
-    PetscCall(VecRestoreArrayRead(Udot, &rate));
-    PetscCall(VecRestoreArrayRead(U, &u));
+    PetscCall(local_sizes.GetZero(dm));
+    {
+      ConstArray u, rate;
+      MutableArray f, sizes;
+      PetscCall(u.Get(U));
+      PetscCall(rate.Get(Udot));
+      PetscCall(f.Get(F));
+      PetscCall(sizes.Get(local_sizes));
+      PetscCall(system.AddResidual(stepper.solve(time), u, rate, f, sizes));
+    }
     PetscCall(VecZeroEntries(system.rows.magnitude));
     PetscCall(DMLocalToGlobal(dm, local_sizes, ADD_VALUES, system.rows.magnitude));
-    PetscCall(DMRestoreLocalVector(dm, &local_sizes));
     if (system.failure) { // the same on every rank
       SNES snes;
       PetscCall(TSGetSNES(stepper.ts, &snes));
@@ -94,15 +90,13 @@ struct StepperCallbacks {
                                  void *context)
   {
     auto &stepper = *static_cast<Stepper *>(context);
-    const PetscScalar *u, *rate;
+    ConstArray u, rate;
     PetscFunctionBeginUser;
     if (stepper.old_matrix_will_do()) PetscFunctionReturn(0); // untouched, and so PETSc keeps its factors
     PetscCall(MatZeroEntries(P));
-    PetscCall(VecGetArrayRead(U, &u));
-    PetscCall(VecGetArrayRead(Udot, &rate));
+    PetscCall(u.Get(U));
+    PetscCall(rate.Get(Udot));
     PetscCall(stepper.system.AddJacobian(stepper.solve(time), u, rate, shift, P));
-    PetscCall(VecRestoreArrayRead(Udot, &rate));
-    PetscCall(VecRestoreArrayRead(U, &u));
     PetscCall(MatAssemblyBegin(P, MAT_FINAL_ASSEMBLY));
     PetscCall(MatAssemblyEnd(P, MAT_FINAL_ASSEMBLY));
     if (A != P) {

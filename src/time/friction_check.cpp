@@ -1,4 +1,5 @@
 /// Is the friction law asked what it can answer? Looked at after each accepted step, if the law gives cause.
+#include "support/petsc_arrays.hpp"
 #include "time/stepper.hpp"
 
 #include <algorithm>
@@ -132,24 +133,20 @@ std::string about_early_end(int phase, double time, double left)
 
 PetscErrorCode Stepper::CheckFriction()
 {
-  Vec U, Udot;
-  const PetscScalar *u, *rate;
+  LocalVector U, Udot;
+  ConstArray u, rate;
   ContactResults results;
   PetscFunctionBeginUser;
   const FrictionLaw *law = scene.friction.law();
   const double highest = law ? law->highest_speed() : 0;
   const bool asks = law && (law->may_fall() || std::isfinite(highest) || scene.friction_speeds);
   if (!contact || !contact->between_gels() || !asks) PetscFunctionReturn(0);
-  PetscCall(DMGetLocalVector(mesh.dm, &U));
-  PetscCall(DMGetLocalVector(mesh.dm, &Udot));
+  PetscCall(U.Get(mesh.dm));
+  PetscCall(Udot.Get(mesh.dm));
   PetscCall(LocalState(U, Udot));
-  PetscCall(VecGetArrayRead(U, &u));
-  PetscCall(VecGetArrayRead(Udot, &rate));
+  PetscCall(u.Get(U));
+  PetscCall(rate.Get(Udot));
   PetscCall(contact->Results(plates_now(), u, rate, results, friction_now()));
-  PetscCall(VecRestoreArrayRead(Udot, &rate));
-  PetscCall(VecRestoreArrayRead(U, &u));
-  PetscCall(DMRestoreLocalVector(mesh.dm, &Udot));
-  PetscCall(DMRestoreLocalVector(mesh.dm, &U));
 
   const FrictionCheck found = look(scene, results);
   const bool turned = state.time == phase().end_time && phase().rate != scene.bottom_plate_rate;

@@ -1,6 +1,8 @@
 /// A Stepper made ready: PETSc's TS, SNES and KSP, their options, the matrix.
 #include "time/stepper.hpp"
 
+#include "support/petsc_arrays.hpp"
+
 #include <limits>
 
 #ifdef __GLIBC__
@@ -120,25 +122,24 @@ PetscErrorCode Stepper::ProbeSolver()
 {
   SNES snes;
   KSP ksp;
-  Vec zero, x, U, Udot;
+  Vec zero, x;
   PetscBool chooses_tolerance;
-  const PetscScalar *u, *rate;
   PetscFunctionBeginUser;
   PetscCall(TSGetSNES(ts, &snes));
   PetscCall(SNESGetKSP(snes, &ksp));
-  PetscCall(DMGetLocalVector(mesh.dm, &U));
-  PetscCall(DMGetLocalVector(mesh.dm, &Udot));
-  PetscCall(LocalState(U, Udot));
-  PetscCall(VecGetArrayRead(U, &u));
-  PetscCall(VecGetArrayRead(Udot, &rate));
-  PetscCall(MatZeroEntries(jacobian));
-  PetscCall(system.AddJacobian(solve(state.time), u, rate, 1 / phase().duration(), jacobian));
-  PetscCall(MatAssemblyBegin(jacobian, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(jacobian, MAT_FINAL_ASSEMBLY));
-  PetscCall(VecRestoreArrayRead(Udot, &rate));
-  PetscCall(VecRestoreArrayRead(U, &u));
-  PetscCall(DMRestoreLocalVector(mesh.dm, &Udot));
-  PetscCall(DMRestoreLocalVector(mesh.dm, &U));
+  {
+    LocalVector U, Udot;
+    ConstArray u, rate;
+    PetscCall(U.Get(mesh.dm));
+    PetscCall(Udot.Get(mesh.dm));
+    PetscCall(LocalState(U, Udot));
+    PetscCall(u.Get(U));
+    PetscCall(rate.Get(Udot));
+    PetscCall(MatZeroEntries(jacobian));
+    PetscCall(system.AddJacobian(solve(state.time), u, rate, 1 / phase().duration(), jacobian));
+    PetscCall(MatAssemblyBegin(jacobian, MAT_FINAL_ASSEMBLY));
+    PetscCall(MatAssemblyEnd(jacobian, MAT_FINAL_ASSEMBLY));
+  }
   PetscCall(VecDuplicate(state.U, &zero));
   PetscCall(VecDuplicate(state.U, &x));
   PetscCall(VecZeroEntries(zero));

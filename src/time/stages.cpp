@@ -1,4 +1,5 @@
 /// The stages of a step: where they start and what they leave. THEORY 4.4.
+#include "support/petsc_arrays.hpp"
 #include "time/stepper.hpp"
 #include "tribogel/math/sdirk2.hpp"
 
@@ -146,44 +147,37 @@ PetscErrorCode Stepper::PredictStage(Vec U) const
 PetscErrorCode Stepper::EvaluateEnd(PetscReal time, History &next, CellEnergy &energy) const
 {
   SNES snes;
-  Vec local, solution;
-  PetscScalar *values;
+  Vec solution;
+  LocalVector local;
+  MutableArray values;
   PetscFunctionBeginUser;
   PetscCall(TSGetSNES(ts, &snes));
   PetscCall(SNESGetSolution(snes, &solution));
-  PetscCall(DMGetLocalVector(mesh.dm, &local));
-  PetscCall(VecZeroEntries(local));
+  PetscCall(local.GetZero(mesh.dm));
   PetscCall(DMGlobalToLocal(mesh.dm, solution, INSERT_VALUES, local));
-  PetscCall(VecGetArray(local, &values));
+  PetscCall(values.Get(local));
   system.SetBoundary(plates(time, 0), values, nullptr);
   next.resize(state.history.size());
   const BulkFailure failure = system.bulk->Advance(values, start(), weights(time), next, energy);
   PetscCheck(!failure, PETSC_COMM_SELF, PETSC_ERR_PLIB, "a converged step cannot be evaluated again");
-  PetscCall(VecRestoreArray(local, &values));
-  PetscCall(DMRestoreLocalVector(mesh.dm, &local));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode Stepper::AdvanceFriction(PetscReal time, const FrictionMemory &memory, Vec U, Vec rate,
                                         FrictionHistory &next)
 {
-  Vec local[2];
+  LocalVector local[2];
   const Vec global[2] = {U, rate};
-  PetscScalar *values[2];
+  MutableArray values[2];
   PetscFunctionBeginUser;
   for (int k = 0; k < 2; ++k) {
-    PetscCall(DMGetLocalVector(mesh.dm, &local[k]));
-    PetscCall(VecZeroEntries(local[k]));
+    PetscCall(local[k].GetZero(mesh.dm));
     PetscCall(DMGlobalToLocal(mesh.dm, global[k], INSERT_VALUES, local[k]));
-    PetscCall(VecGetArray(local[k], &values[k]));
+    PetscCall(values[k].Get(local[k]));
   }
   system.SetBoundary(plates(time, 0), values[0], values[1]);
-  PetscCall(contact->Advance(plates(time, solve_length(time)), memory, values[0],
-                             system.steady() ? nullptr : values[1], next));
-  for (int k = 0; k < 2; ++k) {
-    PetscCall(VecRestoreArray(local[k], &values[k]));
-    PetscCall(DMRestoreLocalVector(mesh.dm, &local[k]));
-  }
+  const PetscScalar *const rates = system.steady() ? nullptr : static_cast<PetscScalar *>(values[1]);
+  PetscCall(contact->Advance(plates(time, solve_length(time)), memory, values[0], rates, next));
   PetscFunctionReturn(0);
 }
 

@@ -1,6 +1,8 @@
 /// TS over the schedule: one TSSolve per phase, so that each phase's end is hit exactly and the method
 /// restarts with a small step at each jump of the plate's motion.
 #include "time/stepper.hpp"
+
+#include "support/petsc_arrays.hpp"
 #include "tribogel/math/sdirk2.hpp"
 
 #include <algorithm>
@@ -64,55 +66,52 @@ PlateFrames Stepper::plates(double time, double step) const
 
 PetscErrorCode Stepper::LocalState(Vec U, Vec Udot) const
 {
-  PetscScalar *u, *rate;
   PetscFunctionBeginUser;
   PetscCall(VecZeroEntries(U));
   PetscCall(VecZeroEntries(Udot));
   PetscCall(DMGlobalToLocal(mesh.dm, state.U, INSERT_VALUES, U));
   PetscCall(DMGlobalToLocal(mesh.dm, state.Udot, INSERT_VALUES, Udot));
-  PetscCall(VecGetArray(U, &u));
-  PetscCall(VecGetArray(Udot, &rate));
-  system.SetBoundary(plates_now(), u, rate);
-  PetscCall(VecRestoreArray(Udot, &rate));
-  PetscCall(VecRestoreArray(U, &u));
+  {
+    MutableArray u, rate;
+    PetscCall(u.Get(U));
+    PetscCall(rate.Get(Udot));
+    system.SetBoundary(plates_now(), u, rate);
+  }
   if (system.steady()) PetscCall(VecZeroEntries(Udot)); // state.Udot is how the load is raised, not a motion
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode Stepper::BeginStep(Vec now)
 {
-  Vec U, Udot;
-  const PetscScalar *u;
+  LocalVector U, Udot;
+  ConstArray u;
   PetscFunctionBeginUser;
   PetscCall(VecCopy(now, before));
   if (!contact) PetscFunctionReturn(0);
-  PetscCall(DMGetLocalVector(mesh.dm, &U));
-  PetscCall(DMGetLocalVector(mesh.dm, &Udot));
+  PetscCall(U.Get(mesh.dm));
+  PetscCall(Udot.Get(mesh.dm));
   PetscCall(LocalState(U, Udot));
-  PetscCall(VecGetArrayRead(U, &u));
+  PetscCall(u.Get(U));
   PetscCall(contact->BeginStep(plates_now(), u));
-  PetscCall(VecRestoreArrayRead(U, &u));
-  PetscCall(DMRestoreLocalVector(mesh.dm, &Udot));
-  PetscCall(DMRestoreLocalVector(mesh.dm, &U));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode Stepper::UpdatePattern(SNES snes)
 {
-  Vec U, local;
-  PetscScalar *u;
+  Vec U;
   bool covered;
   PetscFunctionBeginUser;
   if (!contact) PetscFunctionReturn(0);
   PetscCall(SNESGetSolution(snes, &U));
-  PetscCall(DMGetLocalVector(mesh.dm, &local));
-  PetscCall(VecZeroEntries(local));
-  PetscCall(DMGlobalToLocal(mesh.dm, U, INSERT_VALUES, local));
-  PetscCall(VecGetArray(local, &u));
-  system.SetBoundary(plates(stage.time, 0), u, nullptr);
-  PetscCall(contact->UpdateCandidates(plates(stage.time, stage.length), u, covered));
-  PetscCall(VecRestoreArray(local, &u));
-  PetscCall(DMRestoreLocalVector(mesh.dm, &local));
+  {
+    LocalVector local;
+    MutableArray u;
+    PetscCall(local.GetZero(mesh.dm));
+    PetscCall(DMGlobalToLocal(mesh.dm, U, INSERT_VALUES, local));
+    PetscCall(u.Get(local));
+    system.SetBoundary(plates(stage.time, 0), u, nullptr);
+    PetscCall(contact->UpdateCandidates(plates(stage.time, stage.length), u, covered));
+  }
   if (!covered) {
     ++counts.pattern_rebuilds;
     PetscCall(BuildMatrix());

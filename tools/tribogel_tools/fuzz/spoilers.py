@@ -141,7 +141,8 @@ def too_much_approach(random, _, settings):
 
 def top_wider(random, _, settings):
     radius = float(settings["-bottom_radius"]) * random.choice((1.001, 3, 1e6))
-    settings.pop("-specimens", None)
+    for name in ("-specimens", "-counterface"):
+        settings.pop(name, None)
     settings.setdefault("-top_ogden_moduli", "1")
     settings.setdefault("-top_ogden_exponents", "2")
     return refused("top wider than bottom", settings | {"-top_radius": number(radius)}, "-top_radius")
@@ -185,7 +186,8 @@ def steady_at_rest(_, __, settings):
 
 
 def too_many_elements(random, _, settings):
-    settings.pop("-bottom_elements_radial", None)  # is what counts for a gel alone
+    for name in ("-bottom_elements_radial", "-counterface"):  # what counts for a gel alone; no bottom gel
+        settings.pop(name, None)
     settings |= random.choice(({"-elements_radial": "1000000"},
                                {"-elements_radial": "100000", "-mesh_refinements": "10"},
                                {"-elements_radial": "1000000", "-mesh_refinements": "10",
