@@ -21,11 +21,13 @@ Surface rigid_plane(int dim, int order, const Surface &pressed)
     plane.node.push_back({{x, y, 0}, {-1, -1, -1}, {-1, -1, -1}, false, -1});
   };
   if (dim == 2) {
-    constexpr double along[] = {0, 1, 0.5};
-    for (int k = 0; k <= order; ++k) add(along[k] * reach, 0, k);
+    add(0, 0, 0);
+    add(reach, 0, 1);
+    if (order == 2) add(0.5 * reach, 0, 2);
   } else
-    for (int k = 0; k < (order + 1) * (order + 1); ++k)
-      add((2.0 * (k % (order + 1)) / order - 1) * reach, (2.0 * (k / (order + 1)) / order - 1) * reach, k);
+    for (int j = 0; j <= order; ++j)
+      for (int i = 0; i <= order; ++i)
+        add((2.0 * i / order - 1) * reach, (2.0 * j / order - 1) * reach, i + j * (order + 1));
   plane.facet.push_back(facet);
   return plane;
 }

@@ -2,6 +2,7 @@
 #include "time/stepper.hpp"
 
 #include "support/petsc_arrays.hpp"
+#include "time/rejections.hpp"
 
 #include <limits>
 
@@ -11,13 +12,6 @@
 
 namespace tribogel
 {
-
-namespace
-{
-
-constexpr PetscInt most_rejections = 20; ///< of one step, unless options say otherwise
-
-} // namespace
 
 PetscErrorCode Stepper::SetUp()
 {

@@ -3,6 +3,7 @@
 #include "time/stepper.hpp"
 
 #include "support/petsc_arrays.hpp"
+#include "time/rejections.hpp"
 #include "tribogel/math/sdirk2.hpp"
 
 #include <algorithm>
@@ -17,7 +18,6 @@ namespace
 
 /// A run that creeps on with shorter steps than this part of a phase's first does not get anywhere.
 constexpr double smallest_of_first = 1e-4;
-constexpr PetscInt most_rejections = 20; ///< of one step, unless options say otherwise
 
 } // namespace
 

@@ -1,4 +1,5 @@
-/// The friction laws that the program offers. A new one is a header beside this, and its line in `known_laws`.
+/// The friction laws that the program offers. A new one is a header beside this, and its line in
+/// `known_laws`.
 #pragma once
 
 #include "tribogel/friction/adsorption_viscous.hpp"
